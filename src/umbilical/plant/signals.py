@@ -1,0 +1,215 @@
+"""Values of the scenario's signals over arrays of time: loads, disturbances and the vessel's motion.
+
+A jump is taken exactly at its published instant; ``side`` says which limit is wanted there. A caller that
+steps up to an instant must therefore hand over that very number, not a sum of steps that comes close to it.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache, singledispatch
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from umbilical.scenario.environment import Environment
+from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term
+
+Array = NDArray[np.float64]
+Side = Literal["left", "right"]
+_Part = NDArray[np.floating[Any]] | float
+
+
+def evaluate(signal: Signal, t: ArrayLike, side: Side = "right") -> Array:
+    """Sum of the signal's terms.
+
+    Args:
+        signal: terms of a scenario's signal; none at all is zero.
+        t: instants, s, any shape.
+        side: the limit to take exactly at a jump.
+
+    Returns:
+        Values in the signal's own unit, shape of ``t``.
+
+    >>> from umbilical.scenario.signals import Constant, Step
+    >>> signal = (Constant(kind="constant", value=2.0), Step(kind="step", value=3.0, time=1.0))
+    >>> evaluate(signal, [0.0, 1.0]).tolist(), evaluate(signal, 1.0, side="left").item()
+    ([2.0, 5.0], 2.0)
+    """
+    instants = np.asarray(t, dtype=np.float64)
+    total = np.zeros(instants.shape)
+    for term in signal:
+        total += _value(term, instants, side)
+    return total
+
+
+def derivative(signal: Signal, t: ArrayLike, side: Side = "right") -> Array:
+    """Time derivative of the signal between its jumps.
+
+    Args:
+        signal: terms of a scenario's signal.
+        t: instants, s, any shape.
+        side: the limit to take exactly at a kink of a linear table.
+
+    Returns:
+        Derivatives in the signal's unit per second, shape of ``t``.
+
+    >>> from umbilical.scenario.signals import Sine
+    >>> derivative((Sine(kind="sine", amplitude=3.0, frequency=2.0),), 0.0).item()
+    6.0
+    """
+    instants = np.asarray(t, dtype=np.float64)
+    total = np.zeros(instants.shape)
+    for term in signal:
+        total += _slope(term, instants, side)
+    return total
+
+
+def jumps(signal: Signal) -> tuple[float, ...]:
+    """Published instants of a signal, increasing: jumps of steps and pulses, kinks of linear tables.
+
+    >>> from umbilical.scenario.signals import Pulse
+    >>> jumps((Pulse(kind="pulse", value=1.0, start=2.0, end=2.5),))
+    (2.0, 2.5)
+    """
+    return tuple(sorted({instant for term in signal for instant in _instants(term)}))
+
+
+def vessel(environment: Environment, t: ArrayLike, side: Side = "right") -> tuple[Array, Array]:
+    """Displacement e(t), eq. (7), and velocity e'(t) of the vessel, faded in over ``vessel_ramp``.
+
+    The fade is the quintic ``10 q^3 - 15 q^4 + 6 q^5``, twice differentiable, so a ramp above zero starts the
+    vessel from e = e' = 0 whatever its motion is.
+
+    Args:
+        environment: holds the motion, m, and the ramp, s.
+        t: instants, s, any shape.
+        side: the limit to take exactly at a kink.
+
+    Returns:
+        Displacement, m, and velocity, m/s, each of the shape of ``t``.
+
+    >>> from umbilical.scenario.environment import Environment
+    >>> motion = ({"kind": "constant", "value": 2.0},)
+    >>> sea = Environment(gravity=10.0, vessel_motion=motion, vessel_ramp=4.0)
+    >>> [part.tolist() for part in vessel(sea, [0.0, 2.0, 9.0])]
+    [[0.0, 1.0, 2.0], [0.0, 0.9375, 0.0]]
+    """
+    instants = np.asarray(t, dtype=np.float64)
+    motion, ramp = environment.vessel_motion, environment.vessel_ramp
+    if not motion:
+        return np.zeros(instants.shape), np.zeros(instants.shape)
+    displacement, velocity = evaluate(motion, instants, side), derivative(motion, instants, side)
+    if ramp == 0.0:
+        return displacement, velocity
+    q = np.clip(instants / ramp, 0.0, 1.0)
+    square = q * q
+    fade, fade_rate = q * square * (10.0 - 15.0 * q + 6.0 * square), 30.0 * square * (1.0 - q) ** 2 / ramp
+    return fade * displacement, fade * velocity + fade_rate * displacement
+
+
+def reached(t: Array, instant: float, side: Side) -> NDArray[np.bool_]:
+    """Whether what happens at ``instant`` has happened at ``t``; exactly there, ``side`` decides."""
+    return t >= instant if side == "right" else t > instant
+
+
+def spline(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
+    """Cubic spline (not-a-knot) through a table; built once per table."""
+    return _spline(times, values)
+
+
+@lru_cache(maxsize=64)
+def _spline(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
+    from scipy.interpolate import CubicSpline  # slow to import, and few scenarios have a table
+
+    return CubicSpline(times, values)
+
+
+@singledispatch
+def _value(term: Term, t: Array, side: Side) -> _Part:
+    raise TypeError(f"not a term of a signal: {term!r}")
+
+
+@_value.register
+def _(term: Constant, t: Array, side: Side) -> _Part:
+    return term.value
+
+
+@_value.register
+def _(term: Sine, t: Array, side: Side) -> _Part:
+    return term.amplitude * np.sin(term.frequency * t + term.phase)
+
+
+@_value.register
+def _(term: Bell, t: Array, side: Side) -> _Part:
+    with np.errstate(over="ignore"):  # far from the centre the power overflows and the bell is 0
+        return term.amplitude / (1.0 + _square(t, term) ** term.exponent)
+
+
+@_value.register
+def _(term: Step, t: Array, side: Side) -> _Part:
+    return term.value * reached(t, term.time, side)
+
+
+@_value.register
+def _(term: Pulse, t: Array, side: Side) -> _Part:
+    return term.value * (reached(t, term.start, side) & ~reached(t, term.end, side))
+
+
+@_value.register
+def _(term: Table, t: Array, side: Side) -> _Part:
+    if term.interpolation == "linear":
+        return np.interp(t, term.times, term.values)
+    return spline(term.times, term.values)(t)
+
+
+@singledispatch
+def _slope(term: Term, t: Array, side: Side) -> _Part:
+    return 0.0  # constants, and steps and pulses between their jumps
+
+
+@_slope.register
+def _(term: Sine, t: Array, side: Side) -> _Part:
+    return term.amplitude * term.frequency * np.cos(term.frequency * t + term.phase)
+
+
+@_slope.register
+def _(term: Bell, t: Array, side: Side) -> _Part:
+    # With u = |q|^(2b) the slope is -A u' / (1 + u)^2, u' = 2b u / (q width); at q = 0 and far away that is 0.
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        u = _square(t, term) ** term.exponent
+        slope = -2.0 * term.amplitude * term.exponent * u / ((t - term.center) * (1.0 + u) ** 2)
+    return np.where(np.isfinite(slope), slope, 0.0)
+
+
+def _square(t: Array, term: Bell) -> Array:
+    q = (t - term.center) / term.width
+    return q * q
+
+
+@_slope.register
+def _(term: Table, t: Array, side: Side) -> _Part:
+    if term.interpolation == "smooth":
+        return spline(term.times, term.values)(t, 1)
+    slopes = np.concatenate([[0.0], np.diff(term.values) / np.diff(term.times), [0.0]])
+    return slopes[np.searchsorted(term.times, t, side=side)]
+
+
+@singledispatch
+def _instants(term: Term) -> tuple[float, ...]:
+    return ()
+
+
+@_instants.register
+def _(term: Step) -> tuple[float, ...]:
+    return (term.time,)
+
+
+@_instants.register
+def _(term: Pulse) -> tuple[float, ...]:
+    return (term.start, term.end)
+
+
+@_instants.register
+def _(term: Table) -> tuple[float, ...]:
+    return term.times if term.interpolation == "linear" else ()
