@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""Set up a local environment and run this project in it: `python3 do.py run`, `python3 do.py test`.
+
+Needs Python 3.11 or newer with pip, and nothing else. Packages come from requirements.lock, at exactly the
+versions and hashes written there, into .venv beside this file; that is done again only when the lock changes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+VENV = ROOT / ".venv"
+BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
+PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
+STAMP = VENV / "installed-from"
+LOCK = ROOT / "requirements.lock"
+
+
+def call(*command: str | Path, **environment: str) -> bool:
+    """Run a command from the project's folder with its own output; True when it succeeded."""
+    print("+", *(f"{k}={v}" for k, v in environment.items()), *map(_shown, command), flush=True)
+    done = subprocess.run(list(map(str, command)), cwd=ROOT, env={**os.environ, **environment}, check=False)
+    return done.returncode == 0
+
+
+def _shown(part: str | Path) -> str:
+    return str(part.relative_to(ROOT)) if isinstance(part, Path) and part.is_relative_to(ROOT) else str(part)
+
+
+def fingerprint() -> str:
+    """Changes when the lock, the package's own declarations or the interpreter do."""
+    parts = (LOCK.read_bytes(), (ROOT / "pyproject.toml").read_bytes(), sys.version.encode(), str(ROOT).encode())
+    return hashlib.sha256(b"\0".join(parts)).hexdigest()
+
+
+def set_up() -> None:
+    """Make .venv from the lock, unless it already is."""
+    wanted = fingerprint()
+    if PYTHON.exists() and STAMP.exists() and STAMP.read_text() == wanted:
+        return
+    if VENV.exists():
+        shutil.rmtree(VENV)
+    pip = _make_venv()
+    quiet = ("--quiet", "--no-input", "--disable-pip-version-check")
+    if not call(*pip, "install", *quiet, "--require-hashes", "--requirement", LOCK):
+        raise SystemExit("do.py: the packages of requirements.lock could not be installed (see above).")
+    if not call(*pip, "install", *quiet, "--no-deps", "--no-build-isolation", "--editable", "."):
+        raise SystemExit("do.py: the package itself could not be installed (see above).")
+    STAMP.write_text(wanted)
+
+
+def _make_venv() -> tuple[str | Path, ...]:
+    """An empty environment and the pip command that fills it.
+
+    Debian splits ensurepip from Python; there, a pip outside fills the environment instead.
+    """
+    if importlib.util.find_spec("ensurepip"):
+        made, pip = call(sys.executable, "-m", "venv", VENV), (PYTHON, "-m", "pip")
+    elif importlib.util.find_spec("pip"):
+        made = call(sys.executable, "-m", "venv", "--without-pip", VENV)
+        pip = (sys.executable, "-m", "pip", "--python", PYTHON)
+    else:
+        raise SystemExit("do.py: this Python has neither ensurepip nor pip; on Debian: apt install python3-venv")
+    if not made:
+        raise SystemExit("do.py: no virtual environment could be made (see above); on Debian: apt install python3-venv")
+    return pip
+
+
+def run() -> Iterable[bool]:
+    """Simulate the paper's scenario: out/paper.nc, out/paper.png and a summary."""
+    out = ROOT / "out"
+    out.mkdir(exist_ok=True)
+    yield call(BIN / "umbilical", "run", "paper", "--out", out / "paper.nc", "--plot", out / "paper.png", "--force")
+
+
+def test() -> Iterable[bool]:
+    """The default tests."""
+    yield call(PYTHON, "-m", "pytest")
+
+
+def check() -> Iterable[bool]:
+    """Style, types and the direction of imports."""
+    yield call(PYTHON, "-m", "ruff", "check", ".")
+    yield call(PYTHON, "-m", "ruff", "format", "--check", ".")
+    yield call(PYTHON, "-m", "pyright", "--pythonpath", PYTHON)
+    yield call(BIN / "lint-imports", "--no-cache")
+
+
+def thorough() -> Iterable[bool]:
+    """Slow tests, kernels as plain Python, kernels with their array bounds checked."""
+    yield call(PYTHON, "-m", "pytest", "-m", "slow")
+    yield call(PYTHON, "-m", "pytest", "-m", "nojit", NUMBA_DISABLE_JIT="1")
+    yield call(PYTHON, "-m", "pytest", "-m", "bounds", NUMBA_BOUNDSCHECK="1")
+
+
+TASKS: dict[str, Callable[[], Iterable[bool]]] = {"run": run, "test": test, "check": check, "thorough": thorough}
+
+
+def main() -> int:
+    """Do the named tasks in order; a failure is remembered and the rest still runs."""
+    listing = "\n".join(f"  {name:<9} {task.__doc__}" for name, task in TASKS.items())
+    parser = argparse.ArgumentParser(
+        description=(__doc__ or "").splitlines()[0],
+        epilog=f"tasks:\n{listing}\n  ci        all of them",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("tasks", nargs="+", choices=[*TASKS, "ci"], metavar="task")
+    names = parser.parse_args().tasks
+    if sys.version_info < (3, 11):  # noqa: UP036  (this script is what an older Python is started with)
+        raise SystemExit(f"do.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
+    set_up()
+    chosen = list(TASKS) if "ci" in names else names
+    failed = [name for name in chosen if not all(list(TASKS[name]()))]
+    if failed:
+        print(f"do.py: failed: {', '.join(failed)}", flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
