@@ -1,0 +1,107 @@
+"""The file formats of a result: NetCDF4, which holds everything, and CSV and MAT for other tools.
+
+Each is a function between a dataset and bytes. No clock, host or path enters them: equal datasets give equal bytes.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.errors import FileError
+
+if TYPE_CHECKING:
+    import xarray
+
+
+RESULT_SCHEMA = 1
+"""Version of the layout of a result file; raised when a reader of the old layout would misread the new one."""
+
+_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def to_netcdf(data: xarray.Dataset) -> bytes:
+    """The dataset as a NetCDF4 (HDF5) file, for any reader of that format."""
+    plain = {name: {"_FillValue": None} for name in data.variables}
+    return bytes(data.to_netcdf(None, engine="h5netcdf", encoding=plain))
+
+
+def from_netcdf(content: bytes, origin: str) -> xarray.Dataset:
+    """The dataset in a NetCDF4 file of ours.
+
+    Args:
+        content: the whole file.
+        origin: what to call it in an error.
+
+    Raises:
+        FileError: not NetCDF4, damaged or cut short, not written by Umbilical, or of another schema version.
+    """
+    import xarray
+
+    if not content.startswith(_SIGNATURE):
+        raise FileError(f"{origin}: this is not a NetCDF4 file" + (" (it is empty)" if not content else ""))
+    try:
+        data = xarray.load_dataset(io.BytesIO(content), engine="h5netcdf")
+    except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
+        raise FileError(f"{origin}: the file is damaged or cut short ({_first_line(error)})") from error
+    _check_schema(data, origin)
+    return data
+
+
+def _check_schema(data: xarray.Dataset, origin: str) -> None:
+    version = data.attrs.get("result_schema")
+    if version is None:
+        raise FileError(f"{origin}: a NetCDF4 file, but not a result written by Umbilical")
+    if version != RESULT_SCHEMA:
+        raise FileError(
+            f"{origin}: result layout {version}, and this version of Umbilical reads layout {RESULT_SCHEMA}; "
+            "read it with xarray, or simulate its scenario again"
+        )
+
+
+def _first_line(error: Exception) -> str:
+    return (str(error).splitlines() or [""])[0] or type(error).__name__
+
+
+def to_csv(data: xarray.Dataset) -> bytes:
+    """The time series as a table: a column for each channel of time, and for each motor of a motor channel.
+
+    Two comment lines come first (what it is; the unit of every column), then the names. What lies along the cable is
+    left out: a table has no place for it.
+    """
+    names, units, columns = zip(*_columns(data), strict=True)
+    head = [f"# {data.attrs['title']}, scenario {data.attrs['scenario_hash']}", "# " + ",".join(units), ",".join(names)]
+    text = io.StringIO()
+    np.savetxt(text, np.column_stack(columns), fmt="%.17g", delimiter=",", header="\n".join(head), comments="")
+    return text.getvalue().encode()
+
+
+def _columns(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
+    """Name, unit and values of every column, time first."""
+    yield "time", data["time"].attrs["units"], data["time"].values
+    for name, array in data.data_vars.items():
+        unit = array.attrs["units"]
+        if array.dims == ("time",):
+            yield str(name), unit, array.values
+        elif array.dims[:1] == ("time",) and array.dims[1] != "sigma":
+            numbers = data[array.dims[1]].values
+            yield from ((f"{name}_{k}", unit, array.values[:, j]) for j, k in enumerate(numbers))
+
+
+def to_mat(data: xarray.Dataset) -> bytes:
+    """Every array under its own name as a MATLAB 5 file, with ``units`` and the scenario's text beside them."""
+    from scipy.io import savemat
+
+    content: dict[str, object] = {str(name): array.values for name, array in data.variables.items()}
+    content["units"] = {str(name): array.attrs["units"] for name, array in data.variables.items()}
+    content |= {name: data.attrs[name] for name in ("title", "scenario", "scenario_hash", "convention")}
+    file = io.BytesIO()
+    savemat(file, content, oned_as="column", long_field_names=True)
+    # The format opens with 116 bytes of free text, where scipy puts the time of day.
+    return b"MATLAB 5.0 MAT-file, written by Umbilical".ljust(116) + file.getvalue()[116:]
+
+
+EXPORTS: dict[str, Callable[[xarray.Dataset], bytes]] = {"csv": to_csv, "mat": to_mat}

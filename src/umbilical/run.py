@@ -1,0 +1,266 @@
+"""A run: named arrays with units, how it ended, and the scenario it came from."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical import __version__, files
+from umbilical.errors import FileError, OutputError, ScenarioError
+from umbilical.formats import EXPORTS, RESULT_SCHEMA, from_netcdf, to_netcdf
+from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, Quantity
+
+if TYPE_CHECKING:
+    import xarray
+
+    from umbilical.scenario import Scenario
+
+CONVENTION = (
+    "x runs along the cable from the vessel (0) to the ROV (length), y is transverse, "
+    "paying out is positive; SI units, angles in radians"
+)
+
+_ALONG_CABLE = ("displacement", "velocity")
+_PER_MOTOR = (
+    "motor_speed",
+    "motor_current",
+    "motor_voltage",
+    "demand",
+    "speed_reference",
+    "motor_disturbance",
+    "motor_disturbance_estimate",
+    "effectiveness",
+)
+SECOND_DIMENSION = dict.fromkeys(_ALONG_CABLE, "sigma") | dict.fromkeys(_PER_MOTOR, "motor") | {"kappa": "kappa_index"}
+"""What a channel depends on besides time; a channel not named here depends on time alone."""
+
+_METRIC = "metric_"
+
+
+class Status(Enum):
+    """How a run ended. The value is the command line's exit code."""
+
+    COMPLETED = 0
+    DIVERGED = 3
+    FAILED = 5
+    INTERRUPTED = 130
+
+    @property
+    def exit_code(self) -> int:
+        """What ``umbilical run`` returns: 0 completed, 3 diverged, 5 the controller failed, 130 interrupted."""
+        return self.value
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Run:
+    """The result of one simulation, complete or not.
+
+    Attributes:
+        data: every channel with ``units``, ``long_name`` and ``symbol``, over ``time`` and where it applies ``sigma``
+            (x/l, 0 vessel, 1 ROV), ``motor`` (from 1) or ``kappa_index``; no dimension is ever dropped.
+        scenario: what was simulated.
+        timing: seconds spent, by part; of this process only, never stored.
+
+    Example:
+        >>> import umbilical
+        >>> run = umbilical.simulate(umbilical.load("paper").replace({"duration": 1.0}))
+        >>> run["tip_displacement"].attrs["units"]
+        'm'
+    """
+
+    data: xarray.Dataset
+    scenario: Scenario
+    timing: Mapping[str, float] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> xarray.DataArray:
+        return self.data[name]
+
+    @property
+    def status(self) -> Status:
+        """How it ended."""
+        return Status[self.data.attrs["status"]]
+
+    @property
+    def reason(self) -> str:
+        """Why it ended, in words."""
+        return self.data.attrs["reason"]
+
+    @property
+    def end_time(self) -> float:
+        """The instant it ended at, s."""
+        return float(self.data.attrs["end_time"])
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """What the user should know about this run."""
+        return tuple(json.loads(self.data.attrs["notices"]))
+
+    @property
+    def metrics(self) -> dict[str, float]:
+        """Single numbers by name, in SI units; their words are :data:`umbilical.quantities.METRICS`."""
+        names = [str(name) for name in self.data.data_vars if str(name).startswith(_METRIC)]
+        return {name.removeprefix(_METRIC): float(self.data[name]) for name in names}
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{name} {size}" for name, size in self.data.sizes.items())
+        return f"<Run {self._headline()} ({sizes})>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows()
+        )
+        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>"
+
+    def summary(self) -> str:
+        """How it ended and every metric, as an aligned table of text."""
+        rows = self._rows()
+        widths = [max((len(row[k]) for row in rows), default=0) for k in range(3)]
+        lines = [f"  {n:<{widths[0]}}  {v:>{widths[1]}} {u:<{widths[2]}}  {meaning}" for n, v, u, meaning in rows]
+        return "\n".join([self._headline(), *lines, *(f"  note: {notice}" for notice in self.notices)])
+
+    def _headline(self) -> str:
+        end = f"{self.scenario.name}: {self.status.name} at t = {self.end_time:.6g} s"
+        return f"{end}, {self.reason}" if self.reason else end
+
+    def _rows(self) -> list[tuple[str, str, str, str]]:
+        words = {name: METRICS[name] for name in self.metrics}
+        return [(name, f"{value:.6g}", words[name].unit, words[name].meaning) for name, value in self.metrics.items()]
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Store everything but ``timing`` as NetCDF4; the same run gives the same bytes on the same versions.
+
+        Args:
+            path: the file, by custom ``*.nc``; it appears whole or not at all.
+            force: replace an existing file.
+
+        Raises:
+            OutputError: the file exists, or its folder is missing, read-only or full.
+        """
+        return files.write(path, to_netcdf(self.data), force=force)
+
+    def export(self, path: str | os.PathLike[str], to: str = "csv", *, force: bool = False) -> Path:
+        """Store the run for other tools: ``csv`` (channels over time) or ``mat`` (every array, for MATLAB).
+
+        Raises:
+            OutputError: no such format, or as for :meth:`save`.
+        """
+        if to not in EXPORTS:
+            raise OutputError(f"{path}: no format {to!r}; there are {', '.join(EXPORTS)}")
+        return files.write(path, EXPORTS[to](self.data), force=force)
+
+
+def assemble(
+    scenario: Scenario,
+    channels: Mapping[str, np.ndarray],
+    *,
+    time: np.ndarray,
+    status: Status,
+    reason: str,
+    end_time: float,
+    metrics: Mapping[str, float],
+    timing: Mapping[str, float] | None = None,
+    notices: Sequence[str] = (),
+    sigma: np.ndarray | None = None,
+) -> Run:
+    """Put names, units and the scenario to the arrays of a simulation.
+
+    Args:
+        scenario: what was simulated.
+        channels: arrays by name, each (time,) or (time, k) as :data:`SECOND_DIMENSION` says; the names, their units
+            and meanings are those of :data:`umbilical.quantities.CHANNELS`.
+        time: instants of the samples, s, shape (time,).
+        status: how it ended.
+        reason: why, in words; may be empty.
+        end_time: the instant it ended at, s.
+        metrics: single numbers by name, from :data:`umbilical.quantities.METRICS`.
+        timing: seconds spent, by part; kept in memory only.
+        notices: what the user should know.
+        sigma: positions of the nodes, x/l, where they are not evenly spaced.
+
+    Raises:
+        KeyError: a channel or metric has no words in :mod:`umbilical.quantities`.
+        ValueError: an array's shape does not fit its dimensions.
+    """
+    import xarray
+
+    variables = {name: _channel(name, values) for name, values in channels.items()}
+    variables |= {_METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
+    ending = {
+        "status": status.name,
+        "reason": reason,
+        "end_time": float(end_time),
+        "notices": json.dumps(list(notices), ensure_ascii=False),
+    }
+    data = xarray.Dataset(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
+    return Run(data, scenario, dict(timing or {}))
+
+
+def _channel(name: str, values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
+    dims = ("time", SECOND_DIMENSION[name]) if name in SECOND_DIMENSION else ("time",)
+    return dims, np.asarray(values, dtype=float), _attributes(CHANNELS[name])
+
+
+def _attributes(word: Quantity) -> dict[str, str]:
+    return {"units": word.unit, "long_name": word.meaning, "symbol": word.symbol}
+
+
+def _coordinates(channels: Mapping[str, np.ndarray], time: np.ndarray, sigma: np.ndarray | None) -> dict[str, tuple]:
+    """Values of every dimension that occurs: instants, positions, numbers of the motors from 1, of kappa from 0."""
+    sizes = {SECOND_DIMENSION[name]: values.shape[1] for name, values in channels.items() if name in SECOND_DIMENSION}
+    found: dict[str, tuple] = {"time": ("time", time, {"units": "s", "long_name": "time", "symbol": "t"})}
+    if "sigma" in sizes:
+        nodes = np.linspace(0.0, 1.0, sizes["sigma"]) if sigma is None else sigma
+        comment = {"comment": "distance from the vessel x = sigma * length"}
+        found["sigma"] = ("sigma", nodes, _attributes(PARAMETERS["sigma"]) | comment)
+    if "motor" in sizes:
+        found["motor"] = ("motor", np.arange(1, sizes["motor"] + 1), _attributes(Quantity("1", "i", "motor")))
+    if "kappa_index" in sizes:
+        found["kappa_index"] = ("kappa_index", np.arange(sizes["kappa_index"]), _attributes(Quantity("1", "", "entry")))
+    return found
+
+
+def _identity(scenario: Scenario) -> dict[str, str | int]:
+    """Where the numbers come from: scenario, seed, versions. No clock and no host, so that equal runs stay equal."""
+    return {
+        "title": f"Umbilical run of {scenario.name}",
+        "result_schema": RESULT_SCHEMA,
+        "convention": CONVENTION,
+        "scenario": scenario.to_toml(),
+        "scenario_hash": scenario.hash,
+        "seed": scenario.seed,
+        "version_umbilical": __version__,
+        "version_numpy": np.__version__,
+        "version_numba": version("numba"),
+        "version_python": ".".join(platform.python_version_tuple()[:2]),
+    }
+
+
+def open_run(path: str | os.PathLike[str]) -> Run:
+    """A stored run.
+
+    Raises:
+        FileError: the file is missing, unreadable, damaged, not a result of Umbilical, of another schema version, or
+            holds a scenario this version refuses.
+    """
+    from umbilical.scenario.document import parse
+
+    data = from_netcdf(files.read(path), str(path))
+    try:
+        return Run(data, parse(data.attrs["scenario"], f"{path}: the scenario inside"))
+    except ScenarioError as error:
+        raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
+
+
+def scenario_text(path: str | os.PathLike[str]) -> str:
+    """The TOML text of the scenario a stored run came from; raises as :func:`open_run` does."""
+    return from_netcdf(files.read(path), str(path)).attrs["scenario"]

@@ -1,0 +1,168 @@
+"""Result files: what goes in comes out, the bytes are reproducible, and bad files are told apart."""
+
+from __future__ import annotations
+
+import io
+import platform
+import time
+from datetime import datetime
+
+import numpy as np
+import pytest
+import xarray
+
+from umbilical.errors import FileError, OutputError
+from umbilical.run import Status, open_run, scenario_text
+
+
+@pytest.fixture
+def stored(run, tmp_path):
+    return run.save(tmp_path / "small.nc")
+
+
+def test_what_was_saved_is_opened(run, stored):
+    again = open_run(stored)
+    assert again.data.identical(run.data)
+    assert list(again.data.variables) == list(run.data.variables)
+    assert again.scenario == run.scenario
+    assert again.metrics == run.metrics
+    assert again.notices == run.notices
+    assert again.status is Status.COMPLETED
+    assert again.timing == {}
+
+
+@pytest.mark.parametrize("motors", [0, 1])
+def test_no_dimension_is_dropped_on_the_way(make_run, tmp_path, motors):
+    run = make_run(motors=motors)
+    assert open_run(run.save(tmp_path / "a.nc")).data.identical(run.data)
+
+
+def test_not_a_number_and_infinity_survive(make_run, tmp_path):
+    run = make_run(metrics={"tip_peak": np.inf, "tip_rms": np.nan})
+    assert open_run(run.save(tmp_path / "a.nc")).data.identical(run.data)
+
+
+def test_xarray_alone_reads_it(run, stored):
+    with xarray.open_dataset(stored, engine="h5netcdf") as data:
+        assert data.identical(run.data)
+
+
+def test_the_same_run_gives_the_same_bytes_at_another_time(make_run, tmp_path):
+    first = make_run(timing={"simulate_s": 0.5}).save(tmp_path / "a.nc").read_bytes()
+    time.sleep(1.1)  # formats that store the clock store whole seconds
+    second = make_run(timing={"simulate_s": 0.7}).save(tmp_path / "b.nc").read_bytes()
+    assert first == second
+
+
+def test_opened_and_saved_again_gives_the_same_bytes(stored, tmp_path):
+    assert open_run(stored).save(tmp_path / "again.nc").read_bytes() == stored.read_bytes()
+
+
+def test_one_changed_number_changes_the_bytes(make_run, tmp_path):
+    files = [make_run(end_time=end).save(tmp_path / f"{end}.nc").read_bytes() for end in (1.0, 0.95)]
+    assert files[0] != files[1]
+
+
+def test_neither_host_nor_path_nor_date_is_inside(stored, tmp_path):
+    content = stored.read_bytes()
+    for secret in (platform.node(), str(tmp_path), datetime.now().strftime("%Y-%m-%d")):
+        assert secret.encode() not in content
+
+
+def test_a_scenario_longer_than_an_hdf5_attribute_may_be_is_stored(run, tmp_path):
+    run.data.attrs["scenario"] += "# a long table\n" * 20_000
+    stored = run.save(tmp_path / "long.nc")
+    assert len(scenario_text(stored)) > 200_000
+
+
+def test_the_scenario_can_be_read_alone(run, stored):
+    assert scenario_text(stored) == run.scenario.to_toml()
+
+
+def test_never_overwrites_unasked(run, make_run, stored):
+    before = stored.read_bytes()
+    with pytest.raises(OutputError, match="exists already"):
+        make_run(end_time=0.5).save(stored)
+    assert stored.read_bytes() == before
+    make_run(end_time=0.5).save(stored, force=True)
+    assert open_run(stored).end_time == 0.5
+
+
+def test_truncated_anywhere_it_is_refused_with_its_name(stored, tmp_path):
+    content, cut = stored.read_bytes(), tmp_path / "cut.nc"
+    rng = np.random.default_rng(3)
+    lengths = {0, 1, 7, 8, 9, 48, 96, 512, *rng.integers(0, len(content), 60), *range(len(content) - 9, len(content))}
+    for length in sorted(lengths):
+        cut.write_bytes(content[:length])
+        with pytest.raises(FileError, match=r"cut\.nc: .*(cut short|not a NetCDF4 file)"):
+            open_run(cut)
+
+
+def _netcdf(data: xarray.Dataset) -> bytes:
+    return bytes(data.to_netcdf(None, engine="h5netcdf"))
+
+
+def _altered(run, **attributes) -> bytes:
+    return _netcdf(run.data.assign_attrs(attributes))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda run: b"", "not a NetCDF4 file .it is empty."),
+        (lambda run: b"time,tip\n0,1\n" * 100, "not a NetCDF4 file"),
+        (lambda run: "name = 'x'".encode("utf-16"), "not a NetCDF4 file"),
+        (lambda run: b"\x89HDF\r\n\x1a\n" + b"\xff" * 5000, "damaged or cut short"),
+        (lambda run: _netcdf(xarray.Dataset({"a": 1})), "not a result written by Umbilical"),
+        (lambda run: _altered(run, result_schema=999), "result layout 999"),
+        (lambda run: _altered(run, scenario="nonsense"), "the scenario inside: this is not TOML"),
+        (lambda run: _altered(run, scenario="name = 'x'"), r"the scenario inside: \d+ problems(.|\n)*refuses it"),
+    ],
+)
+def test_other_files_are_told_apart(run, tmp_path, make, message):
+    path = tmp_path / "other.nc"
+    path.write_bytes(make(run))
+    with pytest.raises(FileError, match=rf"other\.nc: .*{message}"):
+        open_run(path)
+
+
+def test_missing_and_folder(tmp_path):
+    with pytest.raises(FileError, match="no such file"):
+        open_run(tmp_path / "missing.nc")
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(FileError, match=r"folder: (this is a folder|cannot be read)"):
+        open_run(tmp_path / "folder")
+
+
+def test_csv_holds_every_time_series_exactly(run, tmp_path):
+    lines = run.export(tmp_path / "a.csv", "csv").read_text().splitlines()
+    assert lines[0] == f"# Umbilical run of small, scenario {run.scenario.hash}"
+    assert lines[1] == "# s,m,rad/s,rad/s,,,"
+    assert lines[2] == "time,tip_displacement,motor_speed_1,motor_speed_2,kappa_0,kappa_1,kappa_2"
+    table = np.loadtxt(io.StringIO("\n".join(lines[3:])), delimiter=",")
+    parts = (run["time"], run["tip_displacement"], run["motor_speed"], run["kappa"])
+    assert np.array_equal(table, np.column_stack([part.values for part in parts]))
+
+
+def test_mat_holds_every_array_exactly(run, tmp_path):
+    from scipy.io import loadmat
+
+    content = loadmat(run.export(tmp_path / "a.mat", "mat"), simplify_cells=True)
+    for name, array in run.data.variables.items():
+        assert np.array_equal(content[name], array.values), name
+    assert content["units"]["metric_tip_peak"] == "m"
+    assert content["scenario"] == run.scenario.to_toml()
+
+
+@pytest.mark.parametrize("to", ["csv", "mat"])
+def test_exports_have_no_clock_and_never_overwrite_unasked(run, tmp_path, to):
+    first = run.export(tmp_path / "a", to).read_bytes()
+    time.sleep(1.1)
+    with pytest.raises(OutputError, match="exists already"):
+        run.export(tmp_path / "a", to)
+    assert run.export(tmp_path / "a", to, force=True).read_bytes() == first
+
+
+def test_an_unknown_format_is_refused(run, tmp_path):
+    with pytest.raises(OutputError, match="no format 'xlsx'; there are csv, mat"):
+        run.export(tmp_path / "a.xlsx", "xlsx")
