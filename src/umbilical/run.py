@@ -133,8 +133,8 @@ class Run:
         return f"{end}, {self.reason}" if self.reason else end
 
     def _rows(self) -> list[tuple[str, str, str, str]]:
-        words = {name: METRICS[name] for name in self.metrics}
-        return [(name, f"{value:.6g}", words[name].unit, words[name].meaning) for name, value in self.metrics.items()]
+        found = [(name, value, METRICS[name]) for name, value in self.metrics.items()]
+        return [(name, f"{value:.6g}", word.unit.removeprefix("1"), word.meaning) for name, value, word in found]
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Store everything but ``timing`` as NetCDF4; the same run gives the same bytes on the same versions.

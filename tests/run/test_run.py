@@ -70,6 +70,11 @@ def test_the_summary_is_aligned_and_has_every_metric_with_its_unit(make_run):
     assert lines[3] == "  note: mind the gap"
 
 
+def test_the_summary_shows_no_unit_of_a_pure_number(make_run):
+    line = make_run(metrics={"slope_peak": 0.5}).summary().splitlines()[1]
+    assert line.split()[:3] == ["slope_peak", "0.5", "largest"]
+
+
 def test_a_run_shows_itself_in_one_line_and_as_a_table(make_run):
     run = make_run(reason="slope > 1")
     assert repr(run) == "<Run small: COMPLETED at t = 1 s, slope > 1 (time 21, sigma 9, motor 2, kappa_index 3)>"
