@@ -104,8 +104,8 @@ def _(winch: Trapezoid, t: Array, side: Side) -> WinchMotion:
     speeds = np.array([0.0, 0.0, top, top, 0.0])
     accelerations = np.array([0.0, acceleration, 0.0, -acceleration, 0.0])
     piece = np.searchsorted(corners, t, side=side)
-    l, v, a, dt = lengths[piece], speeds[piece], accelerations[piece], t - since[piece]
-    return WinchMotion(l + (v + a * dt / 2.0) * dt, v + a * dt, a, np.zeros(t.shape))
+    v, a, dt = speeds[piece], accelerations[piece], t - since[piece]
+    return WinchMotion(lengths[piece] + (v + a * dt / 2.0) * dt, v + a * dt, a, np.zeros(t.shape))
 
 
 @_motion.register

@@ -1,0 +1,86 @@
+"""Runs every check whose sections of the scenario are sound, and gathers all they find."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from inspect import signature
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import TypeAdapter
+
+from umbilical.admission.checks import CHECKS
+from umbilical.admission.findings import Finding, Notice
+from umbilical.errors import Problem, ScenarioError
+from umbilical.scenario import Scenario
+from umbilical.scenario.document import freeze, validate
+
+
+def admit(scenario: Scenario) -> tuple[Notice, ...]:
+    """Check the whole run before its first step.
+
+    Returns:
+        What is allowed but probably not meant, such as a fault after the end of the run.
+
+    Raises:
+        ScenarioError: with every problem.
+
+    >>> from umbilical.admission import load
+    >>> admit(load("paper"))
+    ()
+    """
+    findings = _findings(_sections(scenario))
+    if problems := _only_problems(findings):
+        raise ScenarioError(problems, scenario.name)
+    return tuple(finding for finding in findings if isinstance(finding, Notice))
+
+
+def admit_data(data: Mapping[str, Any], origin: str, problems: Iterable[Problem] = ()) -> Scenario:
+    """Scenario of plain data, after all checks; one broken section does not hide problems of the others.
+
+    Args:
+        data: plain data of a complete scenario.
+        origin: what to call it in errors.
+        problems: those already found on the way to it.
+
+    Raises:
+        ScenarioError: with every problem of the fields and, between sound sections, across them.
+    """
+    try:
+        scenario = validate(data, origin)
+        across = _only_problems(_findings(_sections(scenario)))
+    except ScenarioError as error:
+        scenario = None
+        across = [*error.problems, *_only_problems(_findings(_sound_sections(data, error.problems)))]
+    if scenario is None or problems or across:
+        raise ScenarioError([*problems, *across], origin)
+    return scenario
+
+
+def _findings(sections: Mapping[str, Any]) -> list[Finding]:
+    """What the checks find whose sections are all there."""
+    able = [(check, needs) for check in CHECKS if sections.keys() >= (needs := signature(check).parameters.keys())]
+    # Overflow in a check is an answer (an infinite wave speed breaks its bound), not a fault of the check.
+    with np.errstate(all="ignore"):
+        return [finding for check, needs in able for finding in check(**{name: sections[name] for name in needs})]
+
+
+def _only_problems(findings: Iterable[Finding]) -> list[Problem]:
+    return [finding for finding in findings if isinstance(finding, Problem)]
+
+
+def _sections(scenario: Scenario) -> dict[str, Any]:
+    """All sections by name, and the scenario itself for checks of the whole."""
+    return {name: getattr(scenario, name) for name in Scenario.model_fields} | {"scenario": scenario}
+
+
+def _sound_sections(data: Mapping[str, Any], problems: Iterable[Problem]) -> dict[str, Any]:
+    """The top-level values without a problem of their own, defaults included."""
+    broken = {problem.key.split(".")[0] for problem in problems}
+    sound = {name: field for name, field in Scenario.model_fields.items() if name not in broken}
+    return {
+        name: TypeAdapter(Annotated[field.annotation, field]).validate_python(freeze(data[name]))
+        if name in data
+        else field.get_default(call_default_factory=True)
+        for name, field in sound.items()
+    }

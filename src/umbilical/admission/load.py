@@ -1,0 +1,116 @@
+"""Where scenarios come from: presets by name, TOML files, result files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from umbilical.admission.examine import admit_data
+from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.scenario import Scenario
+from umbilical.scenario.document import extend, read, try_override
+from umbilical.scenario.problems import nearest, shown
+
+_LARGEST_FILE = 50_000_000
+
+
+def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Scenario:
+    """A scenario that has passed every check.
+
+    Args:
+        source: name of a preset, path of a ``.toml`` file, or path of a ``.nc`` result file, whose scenario
+            is taken. A file may start from a preset with ``extends = "paper"`` and say only what differs.
+        overrides: values by dotted keys, lists numbered from 1, e.g. ``{"cable.line_density": 3.0}``.
+
+    Raises:
+        FileError: there is no such preset or file, it cannot be read, or it is not TOML.
+        ScenarioError: with every problem of the fields and between them.
+
+    >>> load("paper", {"duration": 10.0}).duration
+    10.0
+    """
+    origin = os.fspath(source)
+    data = _extended(read(_text(origin), origin), origin)
+    changed, lost = try_override(data, overrides or {})
+    return admit_data(changed, origin, lost)
+
+
+def preset_names() -> tuple[str, ...]:
+    """Names of the scenarios that come with the package.
+
+    >>> "paper" in preset_names()
+    True
+    """
+    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
+
+
+def preset_text(name: str) -> str:
+    """TOML text of a preset, as it is in the package.
+
+    Raises:
+        FileError: there is no such preset.
+
+    >>> preset_text("paper-dead").splitlines()[0]
+    'extends = "paper"'
+    """
+    if name not in preset_names():
+        raise FileError(f"{name}: there is no preset of this name; {nearest(name, preset_names())}")
+    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+
+
+@lru_cache(maxsize=1)
+def _folder() -> Any:
+    return resources.files("umbilical.scenario") / "presets"
+
+
+def _extended(data: dict[str, Any], origin: str) -> dict[str, Any]:
+    """The document laid over the preset it extends, which may itself extend another."""
+    if "extends" not in data:
+        return data
+    name = data["extends"]
+    changes = {key: value for key, value in data.items() if key != "extends"}
+    if name not in preset_names():
+        reason = "only the presets of this package can be extended"
+        problem = Problem(
+            "extends", shown(name), f"one of {', '.join(preset_names())}", reason, nearest(str(name), preset_names())
+        )
+        raise ScenarioError([problem], origin)
+    return extend(_extended(read(preset_text(name), name), name), changes)
+
+
+def _text(source: str) -> str:
+    if source in preset_names():
+        return preset_text(source)
+    path = Path(source)
+    if path.suffix == ".nc":
+        from umbilical.run import scenario_text  # brings xarray along
+
+        return scenario_text(path)
+    return _file_text(path)
+
+
+def _file_text(path: Path) -> str:
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST_FILE + 1)
+    except FileNotFoundError as error:
+        hint = nearest(str(path), preset_names())
+        raise FileError(f"{path}: there is no preset or file of this name; {hint}") from error
+    except IsADirectoryError as error:
+        raise FileError(f"{path}: this is a folder; name a scenario file in it") from error
+    except (OSError, ValueError) as error:
+        raise FileError(f"{path}: the file cannot be read: {getattr(error, 'strerror', None) or error}") from error
+    if len(content) > _LARGEST_FILE:
+        raise FileError(f"{path}: this is no scenario: larger than {_LARGEST_FILE // 1_000_000} MB")
+    try:
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise FileError(f"{path}: this is not UTF-8 text (line {line}); save it with that encoding") from error
+    if not text.strip():
+        raise FileError(f"{path}: the file is empty; start from `umbilical presets --copy paper {path.name}`")
+    return text

@@ -1,0 +1,148 @@
+"""Checks of the moving cable over the whole run: length, tension, wave speed, and the vessel's end."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from umbilical.admission.findings import Finding, amount
+from umbilical.admission.timeline import signals_of_the_environment, tables_of_the_winch
+from umbilical.errors import Problem
+from umbilical.plant import signals
+from umbilical.plant import winch as laws
+from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
+from umbilical.scenario.hardware import Cable, Payload
+from umbilical.scenario.signals import Pulse, Step
+from umbilical.scenario.winch import Cosine, Winch
+
+_SHORTEST, _LONGEST = 1.0, 2e4
+_EVEN_SAMPLES, _SAMPLES_PER_PIECE = 4001, 17
+
+# The key a user turns to mend the motion of each law: how fast it goes, and how hard it speeds up.
+_SPEED_KEY = {"speed": "winch.speed", "quintic": "winch.duration", "trapezoid": "winch.top_speed",
+              "cosine": "winch.frequency", "table": "winch.lengths"}  # fmt: skip
+_ACCELERATION_KEY = {**_SPEED_KEY, "trapezoid": "winch.acceleration"}
+_LENGTH_KEY = {**_SPEED_KEY, "constant": "winch.length", "cosine": "winch.amplitude"}
+
+
+def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
+    """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet."""
+    if any(True for _ in tables_of_the_winch(winch, duration)):
+        return None
+    marks = [0.0, duration, *laws.jumps(winch)]
+    if isinstance(winch, Cosine):
+        marks += list(np.arange(5) * np.pi / (2.0 * winch.frequency))  # all its extremes, however fast it is
+    pieces = np.unique(np.clip(marks, 0.0, duration))
+    t = np.unique(np.concatenate([np.linspace(0.0, duration, _EVEN_SAMPLES), _refined(pieces)]))
+    sides = laws.evaluate(winch, t, "left"), laws.evaluate(winch, t, "right")
+    return np.tile(t, 2), laws.WinchMotion(*(np.concatenate(pair) for pair in zip(*sides, strict=True)))
+
+
+def length(winch: Winch, duration: float) -> Iterator[Finding]:
+    """The cable stays a cable."""
+    if not (sampled := sampled_winch(winch, duration)):
+        return
+    t, motion = sampled
+    for worst, bound in ((int(np.argmin(motion.length)), _SHORTEST), (int(np.argmax(motion.length)), _LONGEST)):
+        found = float(motion.length[worst])
+        if not _SHORTEST <= found <= _LONGEST:
+            yield Problem(
+                _LENGTH_KEY[winch.law],
+                f"a length of {amount(found, 'm')} at {t[worst]:.6g} s",
+                f"from {_SHORTEST:g} m to {_LONGEST:g} m throughout the run",
+                "a cable under 1 m is no string in transverse vibration, one over 20 km is a slip of the unit",
+                f"a winch law that stays on the right side of {bound:g} m",
+            )
+
+
+def tension(winch: Winch, duration: float, environment: Environment) -> Iterator[Finding]:
+    """The tension T = (m + rho (l - x))(g - a) stays above 0: the winch never outruns free fall."""
+    if not (sampled := sampled_winch(winch, duration)):
+        return
+    t, motion = sampled
+    worst, gravity = int(np.argmax(motion.acceleration)), environment.gravity
+    if not motion.acceleration[worst] < gravity:
+        yield Problem(
+            _ACCELERATION_KEY.get(winch.law, "winch"),
+            f"an acceleration of {amount(motion.acceleration[worst], 'm/s2')} at {t[worst]:.6g} s",
+            f"below gravity, {gravity:g} m/s2",
+            "the tension (m + rho (l - x)) (g - a) must stay above 0: a cable cannot push",
+            "pay out more gently",
+        )
+
+
+def wave_speed(
+    winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
+) -> Iterator[Finding]:
+    """The winch stays slower than the waves, which are slowest at the ROV."""
+    if not (sampled := sampled_winch(winch, duration)):
+        return
+    t, motion = sampled
+    net = np.maximum(environment.gravity - motion.acceleration, 0.0)
+    slowest = np.sqrt(payload.mass * net / cable.line_density)
+    ratio = np.abs(motion.speed) - slowest
+    worst = int(np.argmax(ratio))
+    if ratio[worst] >= 0.0 and net[worst] > 0.0:
+        yield Problem(
+            _SPEED_KEY.get(winch.law, "winch"),
+            f"a speed of {amount(motion.speed[worst], 'm/s')} at {t[worst]:.6g} s",
+            f"slower than the waves, {slowest[worst]:.6g} m/s at the ROV",
+            "waves travel at sqrt(T/rho); a cable that moves faster can tell its ends nothing",
+            "a slower winch",
+        )
+
+
+def vessel_is_continuous(environment: Environment) -> Iterator[Finding]:
+    """A ship does not jump."""
+    for number, term in enumerate(environment.vessel_motion, start=1):
+        if isinstance(term, Step | Pulse):
+            yield Problem(
+                f"environment.vessel_motion.{number}.kind",
+                f'"{term.kind}"',
+                "constant, sine, bell or table",
+                "a jump of the vessel would tear the cable's end to another place at once",
+                "a table of the motion, or a bell",
+            )
+
+
+def vessel_at_the_start(
+    environment: Environment, initial: InitialShape, winch: Winch, duration: float
+) -> Iterator[Finding]:
+    """The cable hangs on the vessel at t = 0 and is at rest there."""
+    if any(True for _ in signals_of_the_environment(environment, duration)) or not sampled_winch(winch, duration):
+        return
+    displacement, velocity = (part.item() for part in signals.vessel(environment, 0.0))
+    end, size = _upper_end(initial, laws.evaluate(winch, 0.0).length.item())
+    cure = "fade the vessel in with environment.vessel_ramp, or choose its phase and the initial shape to fit"
+    if abs(displacement - end) > 1e-6 * max(size, 1.0):
+        yield Problem(
+            "environment.vessel_motion",
+            f"e(0) = {amount(displacement, 'm')}",
+            f"the initial shape at the vessel, {end:.6g} m",
+            "the cable hangs on the vessel",
+            cure,
+        )
+    if abs(velocity) > 1e-9:
+        yield Problem(
+            "environment.vessel_motion",
+            f"e'(0) = {amount(velocity, 'm/s')}",
+            "0 m/s",
+            "the cable starts at rest, its upper end too",
+            cure,
+        )
+
+
+def _upper_end(initial: InitialShape, length: float) -> tuple[float, float]:
+    """Displacement of an initial shape at the vessel, m, and its size, m."""
+    if isinstance(initial, TableShape):
+        return initial.displacements[0], max(map(abs, initial.displacements))
+    if isinstance(initial, GaussianShape):
+        share = np.exp(-(((length - initial.distance) / initial.width) ** 2)).item()
+        return initial.amplitude * share, abs(initial.amplitude)
+    return 0.0, 1.0
+
+
+def _refined(pieces: np.ndarray) -> np.ndarray:
+    """Points within each piece, its ends included."""
+    return np.linspace(pieces[:-1], pieces[1:], _SAMPLES_PER_PIECE).ravel()

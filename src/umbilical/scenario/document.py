@@ -1,0 +1,266 @@
+"""A scenario as a document: TOML text, plain data, overrides, its hash and its JSON Schema."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping
+from copy import deepcopy
+from numbers import Integral, Real
+from typing import Any
+
+from pydantic import ValidationError
+
+from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.scenario.fields import TAGS
+from umbilical.scenario.problems import problems_of, shown
+from umbilical.scenario.scenario import Scenario
+
+Data = dict[str, Any]
+_ABSENT = object()
+
+
+def parse(text: str, origin: str = "scenario") -> Scenario:
+    """Scenario of a complete TOML text, one without ``extends``.
+
+    Args:
+        text: TOML.
+        origin: what to call the text in errors, e.g. a file name.
+
+    Raises:
+        FileError: the text is not TOML; the message names line and column.
+        ScenarioError: it is, but not of a scenario; every problem is listed.
+
+    >>> from umbilical.admission import load
+    >>> parse(load("paper").to_toml()) == load("paper")
+    True
+    """
+    return validate(read(text, origin), origin)
+
+
+def read(text: str, origin: str = "scenario") -> Data:
+    """Plain data of a TOML text.
+
+    Raises:
+        FileError: the text is not TOML; the message names line and column.
+    """
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise FileError(f"{origin}: this is not TOML: {error}") from error
+    except RecursionError as error:
+        raise FileError(f"{origin}: this is not a scenario: nested too deeply") from error
+
+
+def validate(data: Mapping[str, Any], origin: str = "scenario") -> Scenario:
+    """Scenario of plain data; fields are checked one by one, not yet against each other.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    try:
+        return Scenario.model_validate(freeze(data))
+    except ValidationError as error:
+        raise ScenarioError(problems_of(error, Scenario), origin) from error
+
+
+def freeze(value: Any) -> Any:
+    """The same data as the strict records take it: lists become tuples, numpy's numbers Python's."""
+    if isinstance(value, Mapping):
+        return {key: freeze(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return tuple(freeze(item) for item in value)
+    if isinstance(value, bool):
+        return value
+    if isinstance(value, Integral):
+        return int(value)
+    return float(value) if isinstance(value, Real) else value
+
+
+def to_dict(scenario: Scenario) -> Data:
+    """Plain data of a scenario, defaults included, what is left out left out."""
+    return scenario.model_dump(mode="json", exclude_none=True)
+
+
+def scenario_hash(scenario: Scenario) -> str:
+    """SHA-256 of the scenario's canonical JSON: sorted keys, shortest numbers, no spaces."""
+    text = json.dumps(to_dict(scenario), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def extend(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:
+    """Lay a document over its base: tables merge, everything else replaces.
+
+    A table that names another kind (``law = "constant"`` over ``law = "quintic"``) replaces the whole table.
+    """
+    merged = _merge(base, {key: value for key, value in changes.items() if key != "assumed"})
+    marks = {**_marks_kept(base, merged), **changes.get("assumed", {})}
+    return {**merged, "assumed": marks} if marks else merged
+
+
+def override(data: Mapping[str, Any], overrides: Mapping[str, Any], origin: str = "scenario") -> Data:
+    """Set values by dotted keys; motors, faults and all other lists are numbered from 1.
+
+    A value of None takes the key away. Naming another kind of table empties the table first, whatever the
+    order of the overrides. The mark *assumed* of a value goes with the value.
+
+    Args:
+        data: plain data of a scenario; left as it is.
+        overrides: e.g. ``{"cable.line_density": 3.0, "motors.2.thrust_coefficient": 1.0}``.
+        origin: what to call the data in errors.
+
+    Raises:
+        ScenarioError: keys that lead nowhere.
+
+    >>> override({"motors": [{"inertia": 1.0}, {"inertia": 1.0}]}, {"motors.2.inertia": 3.0})
+    {'motors': [{'inertia': 1.0}, {'inertia': 3.0}]}
+    """
+    changed, problems = try_override(data, overrides)
+    if problems:
+        raise ScenarioError(problems, origin)
+    return changed
+
+
+def try_override(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> tuple[Data, list[Problem]]:
+    """As :func:`override`, but hands back the problems beside what the good overrides made of the data."""
+    changed = deepcopy(dict(data))
+    kinds_first = sorted(overrides, key=lambda key: key.rpartition(".")[2] not in TAGS)
+    found = [_assign(changed, key, overrides[key]) for key in kinds_first]
+    if "assumed" in data:
+        stated = {key.removeprefix("assumed.") for key in overrides if key.startswith("assumed.")}
+        kept = stated | set(_marks_kept(data, changed))
+        changed["assumed"] = {key: reason for key, reason in changed["assumed"].items() if key in kept}
+    return changed, [problem for problem in found if problem]
+
+
+def assignment(text: str) -> tuple[str, Any]:
+    """Key and value of ``key=value`` as typed on a command line; the value is TOML, else text.
+
+    Raises:
+        ScenarioError: there is no key, or no equals sign.
+
+    >>> assignment("cable.length=250"), assignment("control.law.kind=pd")
+    (('cable.length', 250), ('control.law.kind', 'pd'))
+    """
+    key, equals, value = text.partition("=")
+    if not equals or not key.strip():
+        raise ScenarioError(
+            [Problem(key.strip() or "--set", shown(text), "key=value", "one value is set per key", "e.g. duration=10")]
+        )
+    try:
+        return key.strip(), tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key.strip(), value.strip()
+
+
+def look_up(data: Any, key: str) -> Any:
+    """Value at a dotted key of plain data; raises KeyError where there is none."""
+    for step in key.split("."):
+        if isinstance(data, Mapping) and step in data:
+            data = data[step]
+        elif isinstance(data, list | tuple) and _place(step, len(data)) is not None:
+            data = data[int(step) - 1]
+        else:
+            raise KeyError(key)
+    return data
+
+
+def json_schema() -> Data:
+    """JSON Schema of a scenario file, for editors.
+
+    Which keys are required depends on what ``extends`` brings along, which a schema cannot follow; it checks
+    names, types and bounds, and loading checks the rest.
+    """
+    schema = Scenario.model_json_schema()
+    required = schema["required"]
+    schema = _relaxed(schema)
+    schema["properties"]["extends"] = {"type": "string", "description": "preset that this scenario changes"}
+    schema["anyOf"] = [{"required": ["extends"]}, {"required": required}]
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
+
+
+def schema_text() -> str:
+    """The JSON Schema as it is published in ``docs/scenario.schema.json``."""
+    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+def _relaxed(schema: Any) -> Any:
+    if isinstance(schema, list):
+        return [_relaxed(item) for item in schema]
+    if not isinstance(schema, dict):
+        return schema
+    kept = {"anyOf" if key == "oneOf" else key: _relaxed(item) for key, item in schema.items() if key != "required"}
+    kept.pop("discriminator", None)
+    return kept
+
+
+def _merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:
+    merged = dict(base)
+    for key, value in changes.items():
+        old = merged.get(key)
+        if isinstance(old, Mapping) and isinstance(value, Mapping) and not _other_kind(old, value):
+            value = _merge(old, value)
+        merged[key] = deepcopy(value)
+    return merged
+
+
+def _other_kind(old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
+    return any(isinstance(new.get(name), str) and new[name] != old.get(name) for name in TAGS)
+
+
+def _marks_kept(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, str]:
+    """Marks *assumed* of ``before`` whose values are the same in ``after``."""
+    marks = before.get("assumed", {})
+    return {key: reason for key, reason in marks.items() if _find(before, key) == _find(after, key)}
+
+
+def _find(data: Mapping[str, Any], key: str) -> Any:
+    try:
+        return look_up(data, key)
+    except KeyError:
+        return _ABSENT
+
+
+def _assign(data: Data, key: str, value: Any) -> Problem | None:
+    """Set one value; a problem where the key leads nowhere."""
+    *path, last = ["assumed", key.partition(".")[2]] if key.startswith("assumed.") else key.split(".")
+    table: Any = data
+    for step in path:
+        table = _enter(table, step)
+    if isinstance(table, dict):
+        if last in TAGS and isinstance(value, str) and table.get(last, value) != value:
+            table.clear()
+        table[last] = value
+        if value is None:
+            del table[last]
+        return None
+    if isinstance(table, list) and (place := _place(last, len(table))) is not None:
+        table[place] = value
+        return None
+    return _nowhere(data, key, value)
+
+
+def _enter(table: Any, step: str) -> Any:
+    """The table or list one step down; a missing table is made, anything else is None."""
+    if isinstance(table, dict):
+        return table.setdefault(step, {})
+    if isinstance(table, list) and (place := _place(step, len(table))) is not None:
+        return table[place]
+    return None
+
+
+def _place(step: str, size: int) -> int | None:
+    """Index of a list's place counted from 1; None if there is no such place."""
+    return int(step) - 1 if step.isdecimal() and 1 <= int(step) <= size else None
+
+
+def _nowhere(data: Data, key: str, value: Any) -> Problem:
+    parent = key.rpartition(".")[0]
+    while parent and _find(data, parent) is _ABSENT:
+        parent = parent.rpartition(".")[0]
+    found = _find(data, parent)
+    if isinstance(found, list):
+        bound = f"places 1 to {len(found)} of {parent}" if found else f"no place: {parent} is empty"
+        return Problem(key, shown(value), bound, "lists are numbered from 1", "name a place that exists")
+    return Problem(key, shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it")

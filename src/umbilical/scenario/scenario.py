@@ -1,0 +1,97 @@
+"""One scenario: everything a run depends on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import Field
+
+from umbilical.scenario.base import Record, quantity
+from umbilical.scenario.control import Control
+from umbilical.scenario.environment import Environment, InitialShape, Straight
+from umbilical.scenario.faults import Fault
+from umbilical.scenario.hardware import Cable, Motor, Payload
+from umbilical.scenario.sensors import Sensors
+from umbilical.scenario.winch import Winch
+
+
+class Grid(Record):
+    """The discretisation. Its order is fixed (4 in space per element, 2 in time); its fineness is not."""
+
+    elements: int = Field(24, ge=4, le=4096, description="elements along the cable, four intervals of nodes each")
+    step: float = quantity("plant_step", 1e-3, gt=0.0, le=1.0, reason="the largest step of the plant", cure="1e-3 s")
+
+
+class Output(Record):
+    """What is stored. It never changes what is simulated."""
+
+    interval: float = quantity(
+        "output_interval", 0.05, gt=0.0, reason="a multiple of the control period", cure="e.g. 0.05 s"
+    )
+
+
+class Scenario(Record):
+    """Everything a run depends on, frozen. Two equal scenarios give the same bytes.
+
+    >>> from umbilical.admission import load
+    >>> heavy = load("paper").replace({"cable.line_density": 3.0, "motors.2.thrust_coefficient": 1.0})
+    >>> heavy.cable.line_density, heavy.hash == load("paper").hash
+    (3.0, False)
+    """
+
+    schema_version: Literal[1] = 1
+    name: str = Field(min_length=1, max_length=80, description="short name, also of the result file")
+    description: str = ""
+    duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time", cure="seconds")
+    seed: int = Field(0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
+    ideal_thruster: bool = Field(False, description="deliver the commanded thrust as it is, without motors")
+    cable: Cable
+    payload: Payload
+    environment: Environment
+    winch: Winch
+    initial: InitialShape = Straight(shape="straight")
+    motors: tuple[Motor, ...] = Field((), max_length=1000)
+    faults: tuple[Fault, ...] = ()
+    sensors: Sensors = Sensors()
+    control: Control
+    grid: Grid = Grid()
+    output: Output = Output()
+    assumed: dict[str, str] = Field(
+        default_factory=dict, description="dotted keys whose values are assumed, each with the reason"
+    )
+
+    def __hash__(self) -> int:
+        return hash(self.hash)
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the canonical text, as hexadecimal digits: equal exactly when scenarios are."""
+        from umbilical.scenario.document import scenario_hash
+
+        return scenario_hash(self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data (tables, lists, numbers, texts), defaults included."""
+        from umbilical.scenario.document import to_dict
+
+        return to_dict(self)
+
+    def to_toml(self) -> str:
+        """Complete TOML text; every key with its unit, its meaning and whether it is assumed."""
+        from umbilical.scenario.text import to_toml
+
+        return to_toml(self)
+
+    def replace(self, overrides: Mapping[str, Any]) -> Scenario:
+        """The same scenario with some values changed.
+
+        Args:
+            overrides: values by dotted keys; lists are numbered from 1, None takes a key away.
+
+        Raises:
+            ScenarioError: with every problem of the fields.
+        """
+        from umbilical.scenario.document import override, validate
+
+        return validate(override(self.to_dict(), overrides, self.name), self.name)
