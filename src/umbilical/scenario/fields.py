@@ -63,6 +63,7 @@ def locate(record: type[Record], place: Sequence[int | str]) -> Place:
         if isinstance(step, int):
             steps.append(str(step + 1))
             annotation = element(annotation)
+            field = _entry(annotation, field)
         elif len(kinds) > 1:
             annotation = next(kind for kind in kinds if tag(kind)[1] == step)
         else:
@@ -70,6 +71,13 @@ def locate(record: type[Record], place: Sequence[int | str]) -> Place:
             field = kinds[0].model_fields.get(step) if kinds else field
             annotation = field.annotation if field else None
     return Place(".".join(steps), field, annotation)
+
+
+def _entry(annotation: Any, of: FieldInfo | None) -> FieldInfo:
+    """Field of one entry of a list: its own bounds, and the list's meaning."""
+    field = FieldInfo.from_annotation(annotation)
+    field.description = of.description if of else None
+    return field
 
 
 def word(field: FieldInfo | None, name: str) -> str:

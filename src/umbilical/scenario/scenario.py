@@ -19,7 +19,9 @@ from umbilical.scenario.winch import Winch
 class Grid(Record):
     """The discretisation. Its order is fixed (4 in space per element, 2 in time); its fineness is not."""
 
-    elements: int = Field(24, ge=4, le=4096, description="elements along the cable, four intervals of nodes each")
+    elements: int = Field(
+        default=24, ge=4, le=4096, description="elements along the cable, four intervals of nodes each"
+    )
     step: float = quantity("plant_step", 1e-3, gt=0.0, le=1.0, reason="the largest step of the plant", cure="1e-3 s")
 
 
@@ -44,14 +46,14 @@ class Scenario(Record):
     name: str = Field(min_length=1, max_length=80, description="short name, also of the result file")
     description: str = ""
     duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time", cure="seconds")
-    seed: int = Field(0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
-    ideal_thruster: bool = Field(False, description="deliver the commanded thrust as it is, without motors")
+    seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
+    ideal_thruster: bool = Field(default=False, description="deliver the commanded thrust as it is, without motors")
     cable: Cable
     payload: Payload
     environment: Environment
     winch: Winch
     initial: InitialShape = Straight(shape="straight")
-    motors: tuple[Motor, ...] = Field((), max_length=1000)
+    motors: tuple[Motor, ...] = Field(default=(), max_length=1000)
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()
     control: Control

@@ -1,0 +1,71 @@
+"""Umbilical: simulate, certify and tune the vibration control of a vessel - cable - ROV system.
+
+A scenario (frozen data) becomes a run (named arrays with units) by repeating
+measure -> decide -> actuate -> advance; everything else prepares a scenario or reads a run.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper").replace({"duration": 1.0}))
+    >>> run.status.name
+    'COMPLETED'
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from umbilical.control.contract import Command, Controller, Measurement
+    from umbilical.engine.simulate import simulate
+    from umbilical.plots import plot_cable, plot_motors, plot_observers, plot_overview, plot_tip
+    from umbilical.run import Run, Status, open_run
+    from umbilical.scenario import Scenario, load, preset_names
+
+__version__ = "0.1.0"
+
+# Imported when first used, so that `import umbilical` costs milliseconds and compiles nothing.
+_HOMES = {
+    "Command": "umbilical.control.contract",
+    "Controller": "umbilical.control.contract",
+    "Measurement": "umbilical.control.contract",
+    "Run": "umbilical.run",
+    "Scenario": "umbilical.scenario",
+    "Status": "umbilical.run",
+    "load": "umbilical.scenario",
+    "open_run": "umbilical.run",
+    "plot_cable": "umbilical.plots",
+    "plot_motors": "umbilical.plots",
+    "plot_observers": "umbilical.plots",
+    "plot_overview": "umbilical.plots",
+    "plot_tip": "umbilical.plots",
+    "preset_names": "umbilical.scenario",
+    "simulate": "umbilical.engine.simulate",
+}
+
+__all__ = [
+    "Command",
+    "Controller",
+    "Measurement",
+    "Run",
+    "Scenario",
+    "Status",
+    "load",
+    "open_run",
+    "plot_cable",
+    "plot_motors",
+    "plot_observers",
+    "plot_overview",
+    "plot_tip",
+    "preset_names",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f"module 'umbilical' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])

@@ -1,0 +1,78 @@
+"""The one decorator that turns a function into a compiled kernel, and where the compiled code is kept.
+
+numba's own cache watches a kernel's own file only, so editing a kernel that another file calls would
+silently run the old code. Here the cache lives in a folder named by a hash of every kernel source.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import platform
+import sys
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import numba
+import numpy
+from numba import config
+
+_FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
+_PACKAGE = Path(__file__).parent
+
+
+def _user_cache() -> Path:
+    if override := os.environ.get("UMBILICAL_CACHE"):
+        return Path(override)
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir())) / "umbilical" / "cache"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "umbilical"
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "umbilical"
+
+
+def _fingerprint() -> str:
+    """Hash of all kernel sources, the versions that compile them and the flags that change the code."""
+    digest = hashlib.sha256()
+    for source in [Path(__file__), *(p for f in _FLOORS_WITH_KERNELS for p in sorted((_PACKAGE / f).rglob("*.py")))]:
+        digest.update(source.relative_to(_PACKAGE).as_posix().encode())
+        digest.update(source.read_bytes())
+    versions = (platform.python_version(), numba.__version__, llvmlite.__version__, numpy.__version__)
+    digest.update(repr((versions, bool(config.BOUNDSCHECK))).encode())
+    return digest.hexdigest()[:16]
+
+
+@cache
+def cache_folder() -> Path:
+    """Folder of the compiled kernels of exactly this source; falls back to a temporary one."""
+    folder = _user_cache() / _fingerprint()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe = folder / f".probe-{os.getpid()}"
+        probe.touch()
+        probe.unlink()
+    except OSError:
+        folder = Path(tempfile.mkdtemp(prefix="umbilical-"))
+    return folder
+
+
+def is_warm() -> bool:
+    """Whether the main loop has been compiled before and will load from disk."""
+    return any(cache_folder().rglob("*run_steps*.nbc"))
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """Compile ``function`` when it is first called, keep it on disk, and release the GIL while it runs.
+
+    No fast-math: results must not depend on the compiler's mood. Division by zero gives inf or NaN,
+    which the engine looks for, instead of raising inside a loop.
+    """
+    before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
+    try:
+        return numba.njit(function, cache=True, nogil=True, error_model="numpy", _nrt=False)
+    finally:
+        config.CACHE_DIR = before

@@ -1,0 +1,57 @@
+"""High-gain observer, eqs. (17), (19): the derivative of a measured signal.
+
+::
+
+    eps pi1' = pi2,   eps pi2' = -lam pi2 - pi1 + x,   estimate of x' = pi2/eps
+
+From x to the estimate it is ``s / (eps^2 s^2 + lam eps s + 1)``. Linear, so it advances exactly for an
+input held since the last sample. It starts at rest on the first sample: pi1 = x, pi2 = 0.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.control.linear import held_input_form
+from umbilical.scenario.control import HighGainObserver
+
+
+class HighGain(NamedTuple):
+    """Exact step ``pi <- form [pi, x]``, shape (2, 3); the estimate is pi2 / time_constant."""
+
+    form: np.ndarray
+    time_constant: float
+
+
+def make_high_gain(record: HighGainObserver | None, period: float) -> HighGain:
+    """Discrete form for one period; an absent observer gets an idle one."""
+    eps = record.time_constant if record else 1.0
+    damping = record.damping if record else 2.0
+    a, b = np.array([[0.0, 1.0 / eps], [-1.0 / eps, -damping / eps]]), np.array([0.0, 1.0 / eps])
+    return HighGain(held_input_form(a, b, period), eps)
+
+
+@kernel
+def start_high_gain(state: np.ndarray, signal: float) -> None:
+    """Rest on the first sample."""
+    state[0] = signal
+    state[1] = 0.0
+
+
+@kernel
+def advance_high_gain(observer: HighGain, state: np.ndarray, signal: float) -> None:
+    """One period with the sample held over it; ``state`` is (pi1, pi2)."""
+    f = observer.form
+    first = f[0, 0] * state[0] + f[0, 1] * state[1] + f[0, 2] * signal
+    second = f[1, 0] * state[0] + f[1, 1] * state[1] + f[1, 2] * signal
+    state[0] = first
+    state[1] = second
+
+
+@kernel
+def derivative_estimate(observer: HighGain, state: np.ndarray) -> float:
+    """pi2/eps."""
+    return state[1] / observer.time_constant

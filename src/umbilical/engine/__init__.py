@@ -1,0 +1,1 @@
+"""measure -> decide -> actuate -> advance, over and over: a scenario becomes a run."""

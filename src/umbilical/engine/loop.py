@@ -1,0 +1,202 @@
+"""The two loops, one semantics: measure -> decide -> actuate -> advance, once per control period.
+
+``run_steps`` is compiled from end to end for the built-in controller. ``run_python`` calls the same kernels
+for everything but the decision, which may be any Python object; with the built-in controller behind the
+Python contract it gives the same bits (tests/twins).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.control import cascade
+from umbilical.control.cascade import CascadeSettings, CascadeState
+from umbilical.control.contract import THRUST_COMMAND, VOLTAGE, Command, Controller, Decision, Readings, to_measurement
+from umbilical.engine.recording import Log, Tally, measure, store
+from umbilical.engine.sensing import Sensors, SensorState, sense
+from umbilical.engine.stepping import DELIVERED, Plant, PlantState, advance, enter_step
+from umbilical.errors import ControllerError
+from umbilical.plant.exogenous import Inputs
+
+FINISHED = -1
+
+
+class World(NamedTuple):
+    """The plant with its sensors: what the controller is held against."""
+
+    plant: Plant
+    state: PlantState
+    sensors: Sensors
+    memory: SensorState
+    readings: Readings
+    decision: Decision
+
+
+class Record(NamedTuple):
+    """What is kept of a run, and which samples: every ``every``-th update is stored."""
+
+    log: Log
+    tally: Tally
+    every: int
+    fault_update: int
+    """First update at or after the first fault."""
+
+
+@kernel
+def actuate(world: World) -> None:
+    """An ideal thruster delivers the new command at once; motors take their time."""
+    if world.plant.ideal:
+        world.state.now[DELIVERED] = world.decision.outer[THRUST_COMMAND]
+
+
+@kernel
+def keep(world: World, record: Record, update: int, last: bool, kappa: np.ndarray) -> bool:
+    """Take one control sample into the record; False if the model has ended."""
+    good = measure(record.tally, world.state, world.decision, update >= record.fault_update)
+    if good and (update % record.every == 0 or last):
+        row = update // record.every if update % record.every == 0 else record.log.scalars.shape[0] - 1
+        store(record.log, row, record.tally, world.state, world.decision, kappa)
+    return good
+
+
+@kernel
+def update_world(
+    world: World, settings: CascadeSettings, memory: CascadeState, record: Record, noise: np.ndarray, row: int, update: int,
+    last: bool,
+) -> bool:  # fmt: skip
+    """One control instant of the built-in controller; False if the model has ended."""
+    sense(world.sensors, world.memory, noise, row, world.state, world.readings)
+    if update == 0:
+        cascade.start(settings, memory, world.readings)
+    cascade.update(settings, memory, world.readings, world.decision)
+    actuate(world)
+    return keep(world, record, update, last, memory.kappa)
+
+
+@kernel
+def run_steps(
+    world: World,
+    settings: CascadeSettings,
+    memory: CascadeState,
+    record: Record,
+    inputs: Inputs,
+    first: np.ndarray,
+    noise: np.ndarray,
+    begin: int,
+) -> int:
+    """Control periods ``begin`` onwards, one per entry of ``first``; returns the update that ended it, or -1."""
+    for j in range(first.size - 1):
+        enter_step(world.plant, world.state, inputs, first[j])
+        if not update_world(world, settings, memory, record, noise, j, begin + j, False):
+            return begin + j
+        advance_period(world, inputs, first[j], first[j + 1])
+    return FINISHED
+
+
+@kernel
+def advance_period(world: World, inputs: Inputs, begin: int, end: int) -> None:
+    """All plant steps of one control period, entered already at ``begin``."""
+    for i in range(begin, end):
+        if i > begin:
+            enter_step(world.plant, world.state, inputs, i)
+        advance(world.plant, world.state, inputs, i, world.decision.motors[VOLTAGE])
+
+
+class BuiltIn:
+    """The compiled loop around the scenario's own controller."""
+
+    def __init__(self, world: World, settings: CascadeSettings, memory: CascadeState, record: Record) -> None:
+        self._world, self._settings, self._record = world, settings, record
+        self._memory = memory
+
+    def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
+        """As :func:`run_steps`."""
+        return run_steps(self._world, self._settings, self._memory, self._record, inputs, first, noise, begin)
+
+    def finish(self, noise: np.ndarray, update: int) -> bool:
+        """The update at the end of the run; False if the model has ended."""
+        return update_world(self._world, self._settings, self._memory, self._record, noise, 0, update, True)
+
+
+class Python:
+    """The same loop around any controller.
+
+    A controller that gives thrust only is followed by the scenario's allocation (known factors) and motor
+    loops, which go on at the scenario's own period while the controller is called at its.
+    """
+
+    def __init__(
+        self, world: World, drive: CascadeSettings, memory: CascadeState, record: Record, controller: Controller,
+        period: float, every: int, ideal_velocity: bool,
+    ) -> None:  # fmt: skip
+        self._world, self._controller, self._drive, self._record = world, controller, drive, record
+        self._memory = memory
+        self._period, self._every, self._ideal_velocity = period, every, ideal_velocity
+        self._state: Any = None
+        self._through_motors = False
+
+    def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
+        """Control periods ``begin`` onwards; returns the update that ended it, or -1."""
+        world = self._world
+        for j in range(first.size - 1):
+            enter_step(world.plant, world.state, inputs, first[j])
+            if not self._update(noise, j, begin + j, last=False):
+                return begin + j
+            advance_period(world, inputs, first[j], first[j + 1])
+        return FINISHED
+
+    def finish(self, noise: np.ndarray, update: int) -> bool:
+        """The update at the end of the run; False if the model has ended."""
+        return self._update(noise, 0, update, last=True)
+
+    def _update(self, noise: np.ndarray, row: int, update: int, *, last: bool) -> bool:
+        world = self._world
+        sense(world.sensors, world.memory, noise, row, world.state, world.readings)
+        if update == 0:
+            cascade.start(self._drive, self._memory, world.readings)
+        if update % self._every == 0:
+            self._decide(update)
+        if self._through_motors:
+            cascade.update_motors(self._drive.motors, self._memory, world.readings, world.decision)
+        self._memory.updates[0] += 1
+        actuate(world)
+        return keep(world, self._record, update, last, self._memory.kappa)
+
+    def _decide(self, update: int) -> None:
+        """Ask the controller, and put its command where the kernels find it."""
+        world, t = self._world, update * self._period
+        measurement = to_measurement(world.readings, self._ideal_velocity)
+        try:
+            if update == 0:
+                self._state = self._controller.start(measurement)
+            command, self._state = self._controller.update(t, measurement, self._state)
+        except Exception as error:
+            name = type(self._controller).__name__
+            raise ControllerError(f"{name} failed at t = {t:g} s: {type(error).__name__}: {error}") from error
+        check_command(command, world, t)
+        world.decision.outer[THRUST_COMMAND] = np.nan if command.thrust is None else command.thrust
+        if command.voltage is not None:
+            world.decision.motors[VOLTAGE] = command.voltage
+        self._through_motors = command.voltage is None and not world.plant.ideal
+        if self._through_motors:
+            cascade.allocate(self._drive.motors, self._memory, world.decision)
+
+
+def check_command(command: object, world: World, t: float) -> None:
+    """Refuse what is not a command, before it reaches the plant.
+
+    Raises:
+        ControllerError: not a :class:`Command`, neither thrust nor voltage, or the wrong shape.
+    """
+    where = f"the controller's command at t = {t:g} s"
+    if not isinstance(command, Command):
+        raise ControllerError(f"{where} is a {type(command).__name__}; return (Command(thrust=...), state)")
+    if command.thrust is None and (command.voltage is None or world.plant.ideal):
+        need = "thrust (the thruster is ideal)" if world.plant.ideal else "thrust or voltage"
+        raise ControllerError(f"{where} gives no {need}")
+    if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.shape[1],):
+        shape, motors = np.shape(command.voltage), world.decision.motors.shape[1]
+        raise ControllerError(f"{where} gives voltages of shape {shape}; there are {motors} motors")

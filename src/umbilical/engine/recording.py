@@ -1,0 +1,195 @@
+"""What a run leaves behind: stored samples of everything, and measures of every control sample."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.control.contract import (
+    BOUNDARY_ERROR,
+    DEMAND,
+    DISTURBANCE_ESTIMATE,
+    MOTOR_DISTURBANCE,
+    SLOPE_RATE_ESTIMATE,
+    SPEED_REFERENCE,
+    THRUST_COMMAND,
+    VELOCITY_ESTIMATE,
+    VOLTAGE,
+    Decision,
+)
+from umbilical.engine.sensing import true_slope_rate
+from umbilical.engine.stepping import DELIVERED, SINCE_START, PlantState
+from umbilical.plant.cable import DISPLACEMENT, SLOPE, VELOCITY
+from umbilical.plant.exogenous import ACCELERATION, EFFECTIVENESS, FORCE, LENGTH, SPEED, VESSEL
+from umbilical.plant.exogenous import VOLTAGE as VOLTAGE_DISTURBANCE
+from umbilical.plant.layout import probe, to_nodal
+from umbilical.plant.motors import CURRENT
+from umbilical.plant.motors import SPEED as ROTOR_SPEED
+
+SCALARS = (
+    "length", "payout_speed", "payout_acceleration", "vessel_displacement", "vessel_slope",
+    "tip_displacement", "tip_velocity", "tip_slope", "tip_slope_rate",
+    "thrust_command", "boundary_error", "tip_velocity_estimate", "tip_slope_rate_estimate", "disturbance_estimate",
+    "payload_force", "thrust", "disturbance",
+)  # fmt: skip
+WORKS = (
+    "work_thrust", "work_payload_force", "work_payload_damping", "work_cable_damping", "work_cable_load",
+    "work_vessel", "work_tension",
+)  # fmt: skip
+PER_MOTOR = (
+    "motor_speed", "motor_current", "motor_voltage", "demand", "speed_reference", "motor_disturbance",
+    "motor_disturbance_estimate", "effectiveness",
+)  # fmt: skip
+
+# Columns of Tally.measures, and its rows.
+QUARTER, MID, THREE_QUARTER, TIP, TIP_AFTER_FAULT, COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT = range(10)
+PEAK, SQUARES = range(2)
+STEEPEST = 1.0
+"""Beyond this slope the model of small angles has ended, and the run with it."""
+
+
+class Log(NamedTuple):
+    """Stored samples; first dimension: the sample.
+
+    Attributes:
+        scalars: SCALARS, then WORKS.
+        motors: PER_MOTOR, shape (samples, 8, motors).
+        kappa: shape (samples, motors + 1).
+        fields: displacement and velocity of the nodes, shape (samples, 2, 4, n + 1).
+    """
+
+    scalars: np.ndarray
+    motors: np.ndarray
+    kappa: np.ndarray
+    fields: np.ndarray
+
+
+class Tally(NamedTuple):
+    """Running measures over every control sample.
+
+    Attributes:
+        probes: where y(l/4), y(l/2), y(3l/4) are read: element and weights of its nodes, shape (3, 6).
+        measures: largest size and sum of squares of each measure, shape (2, 10).
+        slopes: largest |y_x| so far in each element, shape (n + 1,).
+        count: control samples so far, shape (1,).
+        scales: f23 of each motor, which turns d2 into the disturbance its observer estimates.
+    """
+
+    probes: np.ndarray
+    measures: np.ndarray
+    slopes: np.ndarray
+    count: np.ndarray
+    scales: np.ndarray
+
+
+def make_log(samples: int, motors: int, elements: int) -> Log:
+    """Room for all samples of a run."""
+    return Log(
+        np.zeros((samples, len(SCALARS) + len(WORKS))),
+        np.zeros((samples, len(PER_MOTOR), motors)),
+        np.zeros((samples, motors + 1)),
+        np.zeros((samples, 2, 4, elements + 1)),
+    )
+
+
+def make_tally(elements: int, scales: np.ndarray) -> Tally:
+    """Nothing seen yet."""
+    probes = np.array([[element, *weights] for element, weights in (probe(s, elements) for s in (0.25, 0.5, 0.75))])
+    return Tally(probes, np.zeros((2, 10)), np.zeros(elements + 1), np.zeros(1, dtype=np.int64), scales)
+
+
+def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
+    """The first ``samples`` stored samples by name, fields ordered from vessel to ROV."""
+    named = {name: log.scalars[:samples, k].copy() for k, name in enumerate(SCALARS + WORKS)}
+    if driven:
+        named |= {name: log.motors[:samples, k].copy() for k, name in enumerate(PER_MOTOR)}
+        named["kappa"] = log.kappa[:samples].copy()
+    named["displacement"] = to_nodal(log.fields[:samples, 0])
+    named["velocity"] = to_nodal(log.fields[:samples, 1])
+    return named
+
+
+@kernel
+def count_steep(state: PlantState, slopes: np.ndarray) -> int:
+    """Points whose slope is beyond :data:`STEEPEST` or not a number; keeps the largest slopes."""
+    g = state.fields[SLOPE]
+    n = g.shape[1] - 1
+    scale = 2.0 * n / state.now[LENGTH]
+    steep = 0
+    for j in range(5):
+        for e in range(n):
+            slope = abs(g[j, e]) * scale
+            slopes[e] = slope if slope > slopes[e] else slopes[e]
+            steep += 0 if slope <= STEEPEST else 1
+    return steep
+
+
+@kernel
+def note(tally: Tally, place: int, value: float) -> None:
+    """Peak and sum of squares of one measure."""
+    tally.measures[PEAK, place] = max(tally.measures[PEAK, place], abs(value))
+    tally.measures[SQUARES, place] += value * value
+
+
+@kernel
+def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bool) -> bool:
+    """Take one control sample into the tally; False if the model has ended (non-finite, or too steep)."""
+    y = state.fields[DISPLACEMENT]
+    n = y.shape[1] - 1
+    for p in range(3):
+        e, w = int(tally.probes[p, 0]), tally.probes[p]
+        value = w[1] * y[0, e] + w[2] * y[1, e] + w[3] * y[2, e] + w[4] * y[3, e] + w[5] * y[0, e + 1]
+        note(tally, QUARTER + p, value)
+    note(tally, TIP, y[0, n])
+    if after_fault:
+        note(tally, TIP_AFTER_FAULT, y[0, n])
+    note(tally, COMMAND, decision.outer[THRUST_COMMAND])
+    note(tally, THRUST, state.now[DELIVERED])
+    finite = np.isfinite(y[0, n]) and np.isfinite(state.now[DELIVERED])
+    for k in range(state.motors.shape[1]):
+        note(tally, MOTOR_VOLTAGE, decision.motors[VOLTAGE, k])
+        note(tally, MOTOR_SPEED, state.motors[ROTOR_SPEED, k])
+        note(tally, MOTOR_CURRENT, state.motors[CURRENT, k])
+        finite = finite and np.isfinite(state.motors[ROTOR_SPEED, k]) and np.isfinite(state.motors[CURRENT, k])
+        finite = finite and np.isfinite(decision.motors[VOLTAGE, k])
+    tally.count[0] += 1
+    return count_steep(state, tally.slopes) == 0 and finite
+
+
+@kernel
+def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decision, kappa: np.ndarray) -> None:
+    """Store one sample of everything."""
+    store_scalars(log.scalars[row], state, decision)
+    for k in range(kappa.size):
+        log.kappa[row, k] = kappa[k]
+    for node in range(4):
+        for e in range(state.fields.shape[2]):
+            log.fields[row, 0, node, e] = state.fields[DISPLACEMENT, node, e]
+            log.fields[row, 1, node, e] = state.fields[VELOCITY, node, e]
+    for k in range(state.motors.shape[1]):
+        out = log.motors[row, :, k]
+        out[0], out[1] = state.motors[ROTOR_SPEED, k], state.motors[CURRENT, k]
+        out[2], out[3] = decision.motors[VOLTAGE, k], decision.motors[DEMAND, k]
+        out[4] = decision.motors[SPEED_REFERENCE, k]
+        out[5] = tally.scales[k] * state.motors_now[VOLTAGE_DISTURBANCE, k]
+        out[6], out[7] = decision.motors[MOTOR_DISTURBANCE, k], state.motors_now[EFFECTIVENESS, k]
+
+
+@kernel
+def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> None:
+    """SCALARS, then WORKS, in their order."""
+    now, outer = state.now, decision.outer
+    n = state.fields.shape[2] - 1
+    strain = 2.0 * n / now[LENGTH]
+    out[0], out[1], out[2], out[3] = now[LENGTH], now[SPEED], now[ACCELERATION], now[VESSEL]
+    out[4] = strain * state.fields[SLOPE, 0, 0]
+    out[5], out[6] = state.fields[DISPLACEMENT, 0, n], state.fields[VELOCITY, 0, n]
+    out[7], out[8] = strain * state.fields[SLOPE, 4, n - 1], true_slope_rate(state)
+    out[9], out[10] = outer[THRUST_COMMAND], outer[BOUNDARY_ERROR]
+    out[11], out[12] = outer[VELOCITY_ESTIMATE], outer[SLOPE_RATE_ESTIMATE]
+    out[13], out[14], out[15] = outer[DISTURBANCE_ESTIMATE], now[FORCE], now[DELIVERED]
+    out[16] = now[FORCE] + now[DELIVERED] - outer[THRUST_COMMAND]
+    for term in range(state.power.shape[1]):
+        out[17 + term] = state.power[SINCE_START, term]

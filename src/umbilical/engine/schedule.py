@@ -1,0 +1,59 @@
+"""When things happen: control instants, plant steps between them, and the published jumps steps must end on."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.plant.exogenous import Steps
+
+SNAP = 1e-9
+"""A jump this close to a step's end, as a share of the step, is taken to be at it."""
+
+
+class Stretch(NamedTuple):
+    """Some control periods of a run: their plant steps, and the first step of each period (one more at the end)."""
+
+    steps: Steps
+    first: np.ndarray
+
+
+class Clock(NamedTuple):
+    """Timing of a run: ``periods`` control periods of ``period`` s, ``substeps`` plant steps in each."""
+
+    period: float
+    periods: int
+    substeps: int
+    jumps: np.ndarray
+
+
+def make_clock(duration: float, period: float, largest_step: float, jumps: tuple[float, ...]) -> Clock:
+    """Clock of a run whose duration is a whole number of periods.
+
+    >>> make_clock(1.0, 0.1, 0.04, ()).substeps
+    3
+    """
+    substeps = max(1, int(np.ceil(period / largest_step * (1.0 - 1e-12))))
+    return Clock(period, round(duration / period), substeps, np.array(jumps))
+
+
+def stretch(clock: Clock, begin: int, end: int) -> Stretch:
+    """Plant steps of the control periods ``begin`` to ``end`` (exclusive).
+
+    Steps are counted from the start of the run, so that it does not matter where stretches are cut.
+    """
+    step = clock.period / clock.substeps
+    knots = np.arange(begin * clock.substeps, end * clock.substeps + 1) * step
+    starts = np.arange(0, knots.size, clock.substeps)
+    tolerance = SNAP * step
+    inside = clock.jumps[(clock.jumps >= knots[0] - tolerance) & (clock.jumps <= knots[-1] + tolerance)]
+    nearest = np.rint(inside / step).astype(np.int64) - begin * clock.substeps
+    on_knot = np.abs(knots[np.clip(nearest, 0, knots.size - 1)] - inside) <= tolerance
+    # The knot takes the jump's own number: which side of it a step is on must not hang on round-off.
+    knots[nearest[on_knot]] = inside[on_knot]
+    between = inside[~on_knot]
+    places = np.searchsorted(knots, between)
+    first = starts + np.searchsorted(between, knots[starts], side="left")
+    knots = np.insert(knots, places, between)
+    return Stretch(Steps(knots[:-1], knots[1:], inside), first.astype(np.int64))

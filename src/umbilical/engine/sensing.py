@@ -1,0 +1,143 @@
+"""The sensors: from the truth at the ROV and in the motors to what the controller reads."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.control.contract import LENGTH as READ_LENGTH
+from umbilical.control.contract import (
+    MOTOR_CURRENT,
+    MOTOR_SPEED,
+    PAYOUT_ACCELERATION,
+    PAYOUT_SPEED,
+    TIP_DISPLACEMENT,
+    TIP_SLOPE,
+    TIP_SLOPE_RATE,
+    TIP_VELOCITY,
+    Readings,
+)
+from umbilical.engine.stepping import PlantState
+from umbilical.plant.cable import D40, D41, D42, D43, D44, DISPLACEMENT, SLOPE, VELOCITY
+from umbilical.plant.exogenous import ACCELERATION, LENGTH, SPEED
+from umbilical.plant.motors import CURRENT
+from umbilical.plant.motors import SPEED as ROTOR_SPEED
+from umbilical.scenario.scenario import Scenario
+
+SCALARS = 4  # displacement, slope, velocity, slope rate; then speeds, then currents
+
+
+# Rows of Sensors.errors.
+BIAS, NOISE, RESOLUTION, LATENCY, DROPOUT = range(5)
+
+
+class Sensors(NamedTuple):
+    """Errors of every channel, shape (5, 4 + 2 n), latency in samples; ``perfect`` skips them all."""
+
+    perfect: bool
+    errors: np.ndarray
+
+
+class SensorState(NamedTuple):
+    """Last samples (the oldest is overwritten), the readings held through a drop-out, and the count of samples."""
+
+    samples: np.ndarray
+    held: np.ndarray
+    count: np.ndarray
+
+
+def make_sensors(scenario: Scenario) -> Sensors:
+    """Sensors of a scenario; latency in whole control periods."""
+    s, n = scenario.sensors, len(scenario.motors)
+    channels = [s.tip_displacement, s.tip_slope, s.tip_velocity, s.tip_slope_rate]
+    channels += [s.motor_speed] * n + [s.motor_current] * n
+    period = scenario.control.period
+    rows = [(c.bias, c.noise, c.resolution, round(c.latency / period), c.dropout) for c in channels]
+    errors = np.array(rows, dtype=float).T.copy()
+    return Sensors(not errors.any(), errors)
+
+
+def make_sensor_state(sensors: Sensors) -> SensorState:
+    """Nothing read yet."""
+    depth, width = int(sensors.errors[LATENCY].max(initial=0)) + 1, sensors.errors.shape[1]
+    return SensorState(np.zeros((depth, width)), np.zeros(width), np.zeros(1, dtype=np.int64))
+
+
+class Dice:
+    """Draws of noise and drop-outs, in the order of the updates: they do not depend on how a run is cut up."""
+
+    def __init__(self, sensors: Sensors, seed: int) -> None:
+        self._sensors, self._drawn = sensors, 0
+        noise, lost = np.random.SeedSequence(seed).spawn(2)
+        self._noise, self._lost = np.random.Generator(np.random.Philox(noise)), np.random.Generator(np.random.Philox(lost))
+
+    def draw(self, updates: int) -> np.ndarray:
+        """Noise of the next updates, shape (updates, channels), NaN where a reading is lost; none if perfect."""
+        errors = self._sensors.errors
+        if self._sensors.perfect:
+            return np.zeros((0, errors.shape[1]))
+        shape = (updates, errors.shape[1])
+        noise = self._noise.standard_normal(shape) * errors[NOISE]
+        lost = self._lost.random(shape) < errors[DROPOUT]
+        lost[0] &= self._drawn > 0  # there is nothing to hold before the first reading
+        self._drawn += updates
+        return np.where(lost, np.nan, noise)
+
+
+@kernel
+def true_slope_rate(state: PlantState) -> float:
+    """D(y_x)/Dt at the ROV: the slope of the velocity there, 1/s."""
+    n = state.fields.shape[2] - 1
+    w, e = state.fields[VELOCITY], n - 1
+    slope = D40 * w[0, e] + D41 * w[1, e] + D42 * w[2, e] + D43 * w[3, e] + D44 * w[0, n]
+    return 2.0 * n / state.now[LENGTH] * slope
+
+
+@kernel
+def read_truth(state: PlantState, readings: Readings) -> None:
+    """Perfect readings."""
+    n = state.fields.shape[2] - 1
+    out = readings.boundary
+    out[TIP_DISPLACEMENT] = state.fields[DISPLACEMENT, 0, n]
+    out[TIP_SLOPE] = 2.0 * n / state.now[LENGTH] * state.fields[SLOPE, 4, n - 1]
+    out[TIP_VELOCITY] = state.fields[VELOCITY, 0, n]
+    out[TIP_SLOPE_RATE] = true_slope_rate(state)
+    out[READ_LENGTH], out[PAYOUT_SPEED] = state.now[LENGTH], state.now[SPEED]
+    out[PAYOUT_ACCELERATION] = state.now[ACCELERATION]
+    for k in range(readings.motors.shape[1]):
+        readings.motors[MOTOR_SPEED, k] = state.motors[ROTOR_SPEED, k]
+        readings.motors[MOTOR_CURRENT, k] = state.motors[CURRENT, k]
+
+
+@kernel
+def spoil(s: Sensors, memory: SensorState, noise: np.ndarray, readings: Readings) -> None:
+    """Latency, bias, noise, resolution, drop-out: in this order, channel by channel."""
+    depth, motors = memory.samples.shape[0], readings.motors.shape[1]
+    count = memory.count[0]
+    for c in range(s.errors.shape[1]):
+        if c < SCALARS:
+            target, place = readings.boundary, c
+        else:
+            target, place = readings.motors[(c - SCALARS) // motors], (c - SCALARS) % motors
+        memory.samples[count % depth, c] = target[place]
+        age = min(int(s.errors[LATENCY, c]), count)
+        value = memory.samples[(count - age) % depth, c] + s.errors[BIAS, c] + noise[c]
+        step = s.errors[RESOLUTION, c]
+        if step > 0.0:
+            value = np.rint(value / step) * step
+        if not np.isnan(noise[c]):
+            memory.held[c] = value
+        target[place] = memory.held[c]
+    memory.count[0] += 1
+
+
+@kernel
+def sense(
+    s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings
+) -> None:
+    """One sample of all sensors into ``readings``; ``row`` is the update's row in ``noise``."""
+    read_truth(state, readings)
+    if not s.perfect:
+        spoil(s, memory, noise[row], readings)

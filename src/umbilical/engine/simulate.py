@@ -1,0 +1,255 @@
+"""From a scenario to a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from time import perf_counter
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.admission import admit
+from umbilical.analysis.energy import energy, relative_residual, residual
+from umbilical.control import cascade
+from umbilical.control.contract import Controller, make_decision, make_readings
+from umbilical.engine import loop
+from umbilical.engine.recording import (
+    COMMAND,
+    MID,
+    MOTOR_CURRENT,
+    MOTOR_SPEED,
+    MOTOR_VOLTAGE,
+    PEAK,
+    QUARTER,
+    SQUARES,
+    THREE_QUARTER,
+    THRUST,
+    TIP,
+    TIP_AFTER_FAULT,
+    WORKS,
+    Tally,
+    channels,
+    make_log,
+    make_tally,
+)
+from umbilical.engine.schedule import Clock, make_clock, stretch
+from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
+from umbilical.engine.stepping import make_plant, make_plant_state
+from umbilical.errors import Problem, ScenarioError
+from umbilical.plant import faults
+from umbilical.plant.cable import DISPLACEMENT
+from umbilical.plant.exogenous import published_jumps, sample
+from umbilical.plant.layout import positions
+from umbilical.relations.formulas import motor_constants
+from umbilical.run import Run, Status, assemble
+from umbilical.scenario.scenario import Scenario
+
+STEPS_AT_ONCE = 2000
+"""Plant steps between two looks at the outside world, at progress and at Ctrl-C. No result depends on it."""
+
+
+class Ending(NamedTuple):
+    """How the loop came back: after how many updates, at what time, and why."""
+
+    status: Status
+    reason: str
+    updates: int
+    time: float
+
+
+class Setup(NamedTuple):
+    """Everything a run needs, built from its scenario."""
+
+    clock: Clock
+    world: loop.World
+    record: loop.Record
+    dice: Dice
+    decider: loop.BuiltIn | loop.Python
+
+
+def simulate(
+    scenario: Scenario,
+    controller: Controller | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+) -> Run:
+    """Simulate a scenario from start to end.
+
+    Args:
+        scenario: what to simulate; checked completely before the first step.
+        controller: replaces the scenario's own. Anything with ``period``, ``start`` and ``update``
+            (:class:`~umbilical.control.contract.Controller`).
+        progress: called now and then with the share of the run that is done, 0 to 1.
+
+    Returns:
+        The run. A loop that diverges or is interrupted is a run too: ``status`` and ``reason`` say so,
+        and the samples up to then are kept.
+
+    Raises:
+        ScenarioError: the scenario was refused, with every problem.
+        ControllerError: the user's controller raised or broke its contract.
+
+    >>> import umbilical
+    >>> scenario = umbilical.load("crosscheck-none").replace({"duration": 1.0})
+    >>> run = simulate(scenario)
+    >>> run.status.name, 0.05 < run.metrics["tip_peak"] < 0.15
+    ('COMPLETED', True)
+    """
+    begun = perf_counter()
+    notices = tuple(str(notice) for notice in admit(scenario))
+    setup = _set_up(scenario, controller)
+    prepared = perf_counter()
+    ending, sampling = _run(scenario, setup, progress)
+    simulated = perf_counter()
+    timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
+    return _assemble(scenario, setup, ending, notices, timing)
+
+
+def _set_up(scenario: Scenario, controller: Controller | None) -> Setup:
+    period, every = scenario.control.period, 1
+    if controller is not None:
+        period, every = _periods(scenario, controller)
+    clock = make_clock(scenario.duration, period, scenario.grid.step, published_jumps(scenario))
+    motors = len(scenario.motors)
+    sensors = make_sensors(scenario)
+    world = loop.World(
+        make_plant(scenario),
+        make_plant_state(scenario),
+        sensors,
+        make_sensor_state(sensors),
+        make_readings(motors),
+        make_decision(motors),
+    )
+    record = _record(scenario, clock)
+    brain = cascade.make_settings(scenario), cascade.make_state(scenario)
+    if controller is None:
+        decider: loop.BuiltIn | loop.Python = loop.BuiltIn(world, *brain, record)
+    else:
+        decider = loop.Python(world, *brain, record, controller, period, every, scenario.sensors.ideal_velocity)
+    return Setup(clock, world, record, Dice(sensors, scenario.seed), decider)
+
+
+def _periods(scenario: Scenario, controller: Controller) -> tuple[float, int]:
+    """Period of the loop, and how many of them pass between two calls of a user's controller."""
+    own, loops = float(controller.period), scenario.control.period
+    every = round(own / loops)
+    if not np.isfinite(own) or every < 1 or abs(own / loops - every) > 1e-9 * every:
+        raise ScenarioError(
+            [
+                Problem(
+                    f"{type(controller).__name__}.period",
+                    f"{own:g} s",
+                    f"a multiple of control.period = {loops:g} s",
+                    "the motor loops and the sensors run at control.period",
+                    "set control.period to the controller's period or to a fraction of it",
+                )
+            ]
+        )
+    return loops, every
+
+
+def _record(scenario: Scenario, clock: Clock) -> loop.Record:
+    every = max(1, round(scenario.output.interval / clock.period))
+    samples = clock.periods // every + 1 + (clock.periods % every > 0)
+    first = faults.first_fault(scenario.faults)
+    fault_update = clock.periods + 1 if first is None else int(np.ceil(first / clock.period - 1e-9))
+    scales = np.array([motor_constants(m).f23 for m in scenario.motors])
+    elements = scenario.grid.elements
+    return loop.Record(
+        make_log(samples, len(scenario.motors), elements), make_tally(elements, scales), every, fault_update
+    )
+
+
+def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | None) -> tuple[Ending, float]:
+    """The loop, stretch by stretch; also the seconds spent sampling the outside world."""
+    clock, decider = setup.clock, setup.decider
+    length = max(1, STEPS_AT_ONCE // clock.substeps)
+    sampling = 0.0
+    begin = 0
+    try:
+        while begin < clock.periods:
+            end = min(begin + length, clock.periods)
+            before = perf_counter()
+            part = stretch(clock, begin, end)
+            inputs = sample(scenario, part.steps)
+            inputs.refresh[0] |= begin == 0
+            sampling += perf_counter() - before
+            stopped = decider.run(inputs, part.first, setup.dice.draw(end - begin), begin)
+            if stopped != loop.FINISHED:
+                return _diverged(setup, stopped), sampling
+            begin = end
+            if progress:
+                progress(end / clock.periods)
+        if not decider.finish(setup.dice.draw(1), clock.periods):
+            return _diverged(setup, clock.periods), sampling
+    except KeyboardInterrupt:
+        updates = int(setup.record.tally.count[0])
+        time = max(updates - 1, 0) * clock.period
+        return Ending(Status.INTERRUPTED, f"interrupted at t = {time:g} s", updates, time), sampling
+    return Ending(Status.COMPLETED, "the end of the run was reached", clock.periods + 1, scenario.duration), sampling
+
+
+def _diverged(setup: Setup, update: int) -> Ending:
+    time = update * setup.clock.period
+    steepest = float(setup.record.tally.slopes.max())
+    if steepest > 1.0:
+        why = f"the cable's slope reached {steepest:.3g}: beyond 1 the model of small angles has ended"
+    else:
+        why = "a state or a voltage is no longer finite"
+    return Ending(Status.DIVERGED, f"at t = {time:g} s {why}", update, time)
+
+
+def _assemble(
+    scenario: Scenario, setup: Setup, ending: Ending, notices: tuple[str, ...], timing: dict[str, float]
+) -> Run:
+    every, period = setup.record.every, setup.clock.period
+    samples = (ending.updates - 1) // every + 1
+    times = np.arange(samples) * every * period
+    if ending.status is Status.COMPLETED and setup.record.log.scalars.shape[0] > samples:
+        samples, times = samples + 1, np.append(times, scenario.duration)
+    named = channels(setup.record.log, samples, bool(scenario.motors))
+    metrics = _metrics(setup.record.tally, float(setup.world.state.fields[DISPLACEMENT, 0, -1]))
+    if samples:
+        works = np.stack([named[name] for name in WORKS], axis=1)
+        named["energy"] = energy(scenario, named)
+        named["energy_residual"] = residual(named["energy"], works)
+        metrics["energy_balance_residual"] = relative_residual(named["energy"], works)
+    return assemble(
+        scenario,
+        named,
+        time=times,
+        status=ending.status,
+        reason=ending.reason,
+        end_time=ending.time,
+        metrics=metrics,
+        timing=timing,
+        notices=notices,
+        sigma=positions(scenario.grid.elements),
+    )
+
+
+def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
+    """Metrics over every control sample."""
+    count = max(int(tally.count[0]), 1)
+    rms = np.sqrt(tally.measures[SQUARES] / count)
+    motors = max(tally.scales.size, 1)
+    peaks = tally.measures[PEAK]
+    return {
+        "tip_peak": peaks[TIP],
+        "tip_rms": rms[TIP],
+        "tip_end": tip_end,
+        "tip_peak_after_fault": peaks[TIP_AFTER_FAULT],
+        "mid_peak": peaks[MID],
+        "mid_rms": rms[MID],
+        "quarter_peak": peaks[QUARTER],
+        "quarter_rms": rms[QUARTER],
+        "three_quarter_peak": peaks[THREE_QUARTER],
+        "three_quarter_rms": rms[THREE_QUARTER],
+        "slope_peak": float(tally.slopes.max()),
+        "effort_rms": rms[COMMAND],
+        "thrust_peak": peaks[THRUST],
+        "motor_speed_peak": peaks[MOTOR_SPEED],
+        "motor_voltage_peak": peaks[MOTOR_VOLTAGE],
+        "motor_voltage_rms": rms[MOTOR_VOLTAGE] / np.sqrt(motors),
+        "motor_current_peak": peaks[MOTOR_CURRENT],
+    }

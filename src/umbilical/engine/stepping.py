@@ -1,0 +1,210 @@
+"""One step of the plant: motors first, then cable and ROV under the thrust they deliver; works are added up."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.plant.cable import (
+    ACCELERATION as CABLE_ACCELERATION,
+)
+from umbilical.plant.cable import (
+    DISPLACEMENT,
+    FRESH,
+    SLOPE,
+    VELOCITY,
+    Cable,
+    correct,
+    drift,
+    evaluate,
+    kick,
+    make_cable,
+    make_fields,
+)
+from umbilical.plant.exogenous import (
+    DRIVE_EFFECTIVENESS,
+    DRIVE_STUCK,
+    EFFECTIVENESS,
+    END,
+    FORCE,
+    JERK_RATIO,
+    LENGTH,
+    MIDDLE,
+    NET_GRAVITY,
+    SPEED,
+    START,
+    STUCK,
+    TORQUE,
+    VESSEL,
+    VESSEL_VELOCITY,
+    VOLTAGE,
+    Inputs,
+    profiles,
+)
+from umbilical.plant.initial import initial_displacement
+from umbilical.plant.motors import advance_motor, applied_voltage, make_motor_state, make_motors, thrust
+from umbilical.plant.power import PAYLOAD_FORCE, TENSION, TERMS, THRUST, powers, strain_integral
+from umbilical.scenario.scenario import Scenario
+
+DELIVERED = 8
+"""Place of the delivered thrust in PlantState.now; the places before it are the rows of Inputs.world."""
+AT_START, AT_END, SINCE_START = range(3)
+"""Rows of PlantState.power."""
+
+
+class Plant(NamedTuple):
+    """Constants of everything that moves; ``ideal`` delivers the commanded thrust as it is."""
+
+    cable: Cable
+    motors: np.ndarray
+    ideal: bool
+
+
+class PlantState(NamedTuple):
+    """Everything that moves, and the outside world at the present instant.
+
+    Attributes:
+        fields: the cable, shape (7, 5, n + 1), see ``plant/cable.py``.
+        motors: speeds and currents, shape (2, motors).
+        now: rows of ``Inputs.world`` at the present instant, then the delivered thrust, shape (9,).
+        motors_now: rows of ``Inputs.motors`` at the present instant, shape (6, motors).
+        loads: loads along the cable at the present instant, N/m, shape (loads,).
+        power: terms of the power balance at start and end of a step, W, and their integrals, J, shape (3, 7).
+        drive: voltage U + d2 and torque d1 of one motor over a step, shape (2, 3).
+    """
+
+    fields: np.ndarray
+    motors: np.ndarray
+    now: np.ndarray
+    motors_now: np.ndarray
+    loads: np.ndarray
+    power: np.ndarray
+    drive: np.ndarray
+
+
+def make_plant(scenario: Scenario) -> Plant:
+    """The true plant of a scenario."""
+    return Plant(make_cable(scenario, profiles(scenario)), make_motors(scenario.motors), scenario.ideal_thruster)
+
+
+def make_plant_state(scenario: Scenario) -> PlantState:
+    """The plant at rest in its initial shape."""
+    n, loads = len(scenario.motors), len(scenario.environment.cable_load)
+    fields = make_fields(initial_displacement(scenario))
+    now = np.zeros(9)
+    now[VESSEL] = fields[DISPLACEMENT, 0, 0]
+    power, drive = np.zeros((3, TERMS)), np.zeros((2, 3))
+    return PlantState(fields, make_motor_state(n), now, np.zeros((6, n)), np.zeros(loads), power, drive)
+
+
+@kernel
+def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
+    """The outside world just after the start of step i; forces are evaluated anew where something jumped."""
+    before = state.now[NET_GRAVITY]
+    look_outside(state, inputs, i, START)
+    if inputs.refresh[i]:
+        book_tension_jump(plant, state, before)
+        refresh(plant, state, CABLE_ACCELERATION)
+    if not plant.ideal:
+        state.now[DELIVERED] = present_thrust(plant, state)
+
+
+@kernel
+def look_outside(state: PlantState, inputs: Inputs, i: int, column: int) -> None:
+    """The outside world at start or end of step i. At a start the vessel is where the last step left it."""
+    for row in range(DELIVERED):
+        if row != VESSEL or column == END:
+            state.now[row] = inputs.world[i, row, column]
+    for k in range(state.loads.size):
+        state.loads[k] = inputs.loads[i, k, column]
+    for row in range(state.motors_now.shape[0]):
+        for k in range(state.motors_now.shape[1]):
+            state.motors_now[row, k] = inputs.motors[i, row, k, column]
+
+
+@kernel
+def present_thrust(plant: Plant, state: PlantState) -> float:
+    """Thrust the motors deliver at the present instant, N."""
+    return thrust(plant.motors, state.motors, state.motors_now[EFFECTIVENESS], state.motors_now[STUCK])
+
+
+@kernel
+def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
+    """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
+    after = state.now[NET_GRAVITY]
+    if after != before and before > 0.0:
+        strain = strain_integral(plant.cable, state.fields, state.now[LENGTH], after)
+        state.power[SINCE_START, TENSION] += 0.5 * strain * (1.0 - before / after)
+
+
+@kernel
+def refresh(plant: Plant, state: PlantState, target: int) -> None:
+    """Forces on the cable at the present instant, into the field ``target``."""
+    now = state.now
+    evaluate(
+        plant.cable, state.fields, target, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY], state.loads
+    )
+
+
+@kernel
+def note_power(plant: Plant, state: PlantState, row: int) -> None:
+    """Terms of the power balance at the present instant."""
+    now = state.now
+    powers(
+        plant.cable, state.fields, state.power[row], now[LENGTH], now[SPEED], now[NET_GRAVITY], now[JERK_RATIO],
+        now[VESSEL_VELOCITY], now[DELIVERED], now[FORCE], state.loads,
+    )  # fmt: skip
+
+
+@kernel
+def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
+    """All motors over step i under the held voltages, shape (motors,)."""
+    drive = state.drive
+    for k in range(voltage.size):
+        for c in range(3):
+            share, stuck = inputs.motors[i, DRIVE_EFFECTIVENESS, k, c], inputs.motors[i, DRIVE_STUCK, k, c]
+            reached = applied_voltage(plant.motors, k, voltage[k], share, stuck)
+            drive[0, c] = reached + inputs.motors[i, VOLTAGE, k, c]
+            drive[1, c] = inputs.motors[i, TORQUE, k, c]
+        advance_motor(plant.motors, state.motors, k, inputs.dt[i], drive[0], drive[1])
+
+
+@kernel
+def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
+    """Step i, from :func:`enter_step` on: velocity Verlet for cable and ROV, Runge-Kutta for the motors."""
+    fields, now = state.fields, state.now
+    elements = fields.shape[2] - 1
+    dt = inputs.dt[i]
+    start_power(plant, state, inputs.refresh[i])
+    kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
+    length, speed = inputs.world[i, LENGTH, MIDDLE], inputs.world[i, SPEED, MIDDLE]
+    top_slope = 2.0 * elements / length * fields[SLOPE, 0, 0]
+    fields[VELOCITY, 0, 0] = inputs.world[i, VESSEL_VELOCITY, MIDDLE] + speed * top_slope
+    drift(plant.cable, fields, dt, length, speed)
+    fields[DISPLACEMENT, 0, 0] = inputs.world[i, VESSEL, END]
+    look_outside(state, inputs, i, END)
+    if not plant.ideal:
+        advance_motors(plant, state, inputs, i, voltage)
+        now[DELIVERED] = present_thrust(plant, state)
+    # The velocity at the end is predicted with the old forces of the cable, then corrected with the new ones.
+    kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
+    refresh(plant, state, FRESH)
+    correct(fields, 0.5 * dt)
+    note_power(plant, state, AT_END)
+    for term in range(TERMS):
+        state.power[SINCE_START, term] += 0.5 * dt * (state.power[AT_START, term] + state.power[AT_END, term])
+
+
+@kernel
+def start_power(plant: Plant, state: PlantState, jumped: bool) -> None:
+    """Power at the start of a step: that of the last end, but for what a new command or a jump changes."""
+    if jumped:
+        note_power(plant, state, AT_START)
+        return
+    tip = state.fields[VELOCITY, 0, state.fields.shape[2] - 1]
+    for term in range(TERMS):
+        state.power[AT_START, term] = state.power[AT_END, term]
+    state.power[AT_START, THRUST] = tip * state.now[DELIVERED]
+    state.power[AT_START, PAYLOAD_FORCE] = tip * state.now[FORCE]

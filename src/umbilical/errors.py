@@ -1,0 +1,86 @@
+"""Every error this package raises on purpose.
+
+::
+
+    UmbilicalError
+    ├── ScenarioError        the scenario is wrong: every problem at once      exit code 2
+    ├── FileError            a file cannot be read, or is not what it claims   exit code 2
+    ├── OutputError          a result cannot be written where it was asked for exit code 4
+    ├── ControllerError      a user's controller broke its contract            exit code 5
+    └── MissingPartnerError  an optional package is not installed              exit code 6
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+
+class UmbilicalError(Exception):
+    """Base of every error raised on purpose; ``exit_code`` is what the command line returns."""
+
+    exit_code = 1
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing wrong with a scenario, said so that it can be mended without reading our code.
+
+    Attributes:
+        key: dotted key in the scenario, e.g. ``winch.end_length``.
+        value: what was found, with its unit.
+        bound: what is allowed.
+        reason: why, in physical or numerical terms.
+        cure: what to do about it.
+    """
+
+    key: str
+    value: str
+    bound: str
+    reason: str
+    cure: str
+
+    def __str__(self) -> str:
+        return (
+            f"{self.key} = {self.value}\n"
+            f"    allowed: {self.bound}\n"
+            f"    because: {self.reason}\n"
+            f"    cure:    {self.cure}"
+        )
+
+
+class ScenarioError(UmbilicalError):
+    """A scenario was refused before the first step; ``problems`` lists everything that is wrong."""
+
+    exit_code = 2
+
+    def __init__(self, problems: Sequence[Problem], origin: str = "scenario") -> None:
+        self.problems = tuple(problems)
+        self.origin = origin
+        count = len(self.problems)
+        head = f"{origin}: {count} problem{'s' if count != 1 else ''}"
+        super().__init__("\n".join([head, *(f"  {p}".replace("\n", "\n  ") for p in self.problems)]))
+
+
+class FileError(UmbilicalError):
+    """A file is missing, unreadable, truncated or of another kind."""
+
+    exit_code = 2
+
+
+class OutputError(UmbilicalError):
+    """A result cannot be written: the file exists, the folder is read-only, the disk is full."""
+
+    exit_code = 4
+
+
+class ControllerError(UmbilicalError):
+    """A user's controller raised, or returned something that is not a command."""
+
+    exit_code = 5
+
+
+class MissingPartnerError(UmbilicalError):
+    """An optional partner package is needed and not installed."""
+
+    exit_code = 6

@@ -1,0 +1,173 @@
+"""Words: the unit, the paper's symbol and the meaning attached to every public name.
+
+One table serves the scenario's fields, the axis labels, the result files and ``docs/notation.md``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Quantity(NamedTuple):
+    """What a name stands for.
+
+    Attributes:
+        unit: SI unit ("1" for a pure number, "" where a unit has no sense).
+        symbol: the paper's symbol, as LaTeX without dollars; "" for what the paper does not have.
+        meaning: one short line, also the ``long_name`` in result files.
+        source: equation, table or section of the paper; "" for what is ours.
+        clash: the other meaning the paper gives the same symbol, if any.
+    """
+
+    unit: str
+    symbol: str
+    meaning: str
+    source: str = ""
+    clash: str = ""
+
+
+# fmt: off
+PARAMETERS: dict[str, Quantity] = {
+    # the run
+    "duration":            Quantity("s", "t", "length of the simulated time", "Table 2"),
+    # cable, payload, environment
+    "line_density":        Quantity("kg/m", r"\rho", "line density of the cable", "Table 2", "rho_i is the effectiveness of motor i"),
+    "wet_line_density":    Quantity("kg/m", "", "line density that loads the tension (0: constant tension)"),
+    "cable_damping":       Quantity("N s/m2", "c", "viscous damping per metre of cable", "(6)", "Table 1 swaps c and c_tip"),
+    "payload_mass":        Quantity("kg", "m", "mass of the ROV", "Table 2"),
+    "payload_damping":     Quantity("N s/m", r"c_{tip}", "viscous damping of the ROV", "(8)", "Table 1 swaps c and c_tip"),
+    "gravity":             Quantity("m/s2", "g", "gravitational acceleration", "Table 2"),
+    # winch
+    "length":              Quantity("m", "l", "cable length paid out", "Table 1"),
+    "payout_speed":        Quantity("m/s", "v", "winch speed, positive paying out", "Table 1"),
+    "payout_acceleration": Quantity("m/s2", "a", "winch acceleration", "Table 1"),
+    "winch_frequency":     Quantity("rad/s", "", "angular frequency of a cosine winch law"),
+    # signals
+    "signal_frequency":    Quantity("rad/s", "", "angular frequency of a sine"),
+    "signal_phase":        Quantity("rad", "", "phase of a sine"),
+    "signal_time":         Quantity("s", "", "an instant of the run"),
+    "signal_value":        Quantity("", "", "value in the unit of the signal it belongs to"),
+    "signal_exponent":     Quantity("1", "", "half the exponent of a generalised bell"),
+    "sigma":               Quantity("1", r"\sigma", "position along the cable, x/l: 0 vessel, 1 ROV"),
+    # motors
+    "inertia":             Quantity("kg m2", "J", "rotor and propeller inertia", "(15)"),
+    "viscous_friction":    Quantity("N m s/rad", "B", "viscous friction of the shaft", "(15)"),
+    "torque_constant":     Quantity("N m/A", "K_t", "torque constant", "(15)"),
+    "load_coefficient":    Quantity("N m s2/rad2", "K_Q", "propeller torque coefficient", "(15)"),
+    "resistance":          Quantity("ohm", "R", "armature resistance", "(15)"),
+    "inductance":          Quantity("H", "L", "armature inductance", "(15)", "the paper writes the observer gain g_o with the same symbol"),
+    "back_emf_constant":   Quantity("V s/rad", "K_b", "back-EMF constant", "(15)"),
+    "thrust_coefficient":  Quantity("N s2/rad2", "K_T", "thrust per signed square of the speed", "(8)"),
+    "voltage_limit":       Quantity("V", "", "drive voltage is clipped at plus and minus this"),
+    # faults
+    "effectiveness":       Quantity("1", r"\rho_i", "share of its thrust (or voltage) a motor still delivers", "(16)", "rho alone is the line density"),
+    "stuck_value":         Quantity("rad2/s2 or V", "u_k", "value at which a motor's thrust demand or voltage is stuck", "(16)"),
+    "duty":                Quantity("1", "", "share of each cycle during which an intermittent fault is present"),
+    # sensors
+    "sensor_noise":        Quantity("", "", "standard deviation of white noise, per sample, in the channel's unit"),
+    "sensor_bias":         Quantity("", "", "constant error, in the channel's unit"),
+    "sensor_resolution":   Quantity("", "", "quantisation step, in the channel's unit (0: none)"),
+    "sensor_latency":      Quantity("s", "", "age of the reading when the controller gets it"),
+    "sensor_dropout":      Quantity("1", "", "probability that a reading is lost and the last one held"),
+    # control
+    "control_period":      Quantity("s", "h", "period of the controller"),
+    "damping_gain":        Quantity("N s/m", "k_a", "boundary damping gain", "(22)"),
+    "slope_gain":          Quantity("m/s", r"\beta", "weight of the boundary slope in u_a", "(22)"),
+    "position_gain":       Quantity("N/m", "k_p", "PD position gain", "(66)"),
+    "velocity_gain":       Quantity("N s/m", "k_d", "PD velocity gain", "(66)"),
+    "observer_time":       Quantity("s", r"\varepsilon", "time constant of a high-gain observer", "(17), (19)"),
+    "observer_damping":    Quantity("1", r"\bar\lambda", "damping of a high-gain observer", "(17), (19)"),
+    "disturbance_gain":    Quantity("1/s", r"k_\sigma", "gain of the disturbance observer", "(21)"),
+    "disturbance_coupling": Quantity("kg/s", r"\varsigma", "weight of u_a in the disturbance observer", "(21)"),
+    "adaptation_rate":     Quantity("1/(N m), m/(V... see docs)", r"\Gamma", "adaptation rates of kappa_0, kappa_1 ... kappa_n", "(27)"),
+    "adaptation_leak":     Quantity("1", r"\sigma_\kappa", "leak of the adaptive law", "(27)"),
+    "kappa_initial":       Quantity("", r"\kappa(0)", "initial kappa_0 ... kappa_n", "(23)"),
+    "speed_gain":          Quantity("1/s", "k_1", "gain on the speed error", "(52)"),
+    "current_gain":        Quantity("1/s", "k_2", "gain on the scaled current error", "(60)"),
+    "robust_factor":       Quantity("1", r"\mu", "factor of the smooth robust terms, above 1", "(51)"),
+    "speed_width":         Quantity("rad/s", r"\varepsilon_0", "softening of the speed robust term", "(51)", "epsilon_1, epsilon_2 are observer times"),
+    "current_width":       Quantity("rad/s2", r"e_{02}", "softening of the current robust term"),
+    "speed_bound":         Quantity("rad/s2", r"\bar d_{\Delta 1}", "bound on the torque disturbance over the inertia", "(52)"),
+    "current_bound":       Quantity("rad/s3", r"\bar d_{\Delta 2}", "bound on what the motor observer leaves", "(60)"),
+    "motor_observer_gain": Quantity("1/s", "g_o", "gain of the motor disturbance observer", "(61)", "the paper prints the inductance L_a"),
+    "filter_frequency":    Quantity("rad/s", r"\omega_c", "poles of the command filter"),
+    "root_width":          Quantity("rad2/s2", "s", "softening of the signed root of the demand"),
+    # numerics
+    "plant_step":          Quantity("s", "", "largest step of the plant"),
+    "output_interval":     Quantity("s", "", "time between stored samples"),
+}
+
+CHANNELS: dict[str, Quantity] = {
+    # along the cable
+    "displacement":            Quantity("m", "y", "transverse displacement of the cable", "(6)"),
+    "velocity":                Quantity("m/s", r"\mathrm{D}y/\mathrm{D}t", "material velocity of the cable", "(6)"),
+    # winch, boundaries
+    "length":                  Quantity("m", "l", "cable length paid out", "Table 1"),
+    "payout_speed":            Quantity("m/s", "v", "winch speed, positive paying out", "Table 1"),
+    "payout_acceleration":     Quantity("m/s2", "a", "winch acceleration", "Table 1"),
+    "vessel_displacement":     Quantity("m", "e", "vessel displacement y(0,t)", "(7)"),
+    "tip_displacement":        Quantity("m", "x_1", "ROV displacement y(l,t)", "(17)"),
+    "tip_velocity":            Quantity("m/s", "x_2", "ROV velocity Dy/Dt(l,t)", "(17)"),
+    "tip_slope":               Quantity("1", "z_1", "cable slope at the ROV y_x(l,t)", "(19)", "z_1, z_2 are also the motor states of (44)"),
+    "tip_slope_rate":          Quantity("1/s", "z_2", "material rate of the slope at the ROV", "(19)", "z_1, z_2 are also the motor states of (44)"),
+    "vessel_slope":            Quantity("1", r"y_x(0,t)", "cable slope at the vessel"),
+    # estimates
+    "tip_velocity_estimate":   Quantity("m/s", r"\hat x_2", "observer's ROV velocity", "(17)"),
+    "tip_slope_rate_estimate": Quantity("1/s", r"\hat z_2", "observer's slope rate", "(19)"),
+    "boundary_error":          Quantity("m/s", "u_a", "boundary variable x2 + beta z1, as estimated", "(22)"),
+    "disturbance_estimate":    Quantity("N", r"\hat D", "estimated disturbance of the ROV", "(21)"),
+    # forces
+    "disturbance":             Quantity("N", "D", "what the controller sees as disturbance: d + thrust - commanded thrust", "(8)"),
+    "payload_force":           Quantity("N", "d", "external force on the ROV", "(8)"),
+    "thrust":                  Quantity("N", r"\alpha", "delivered thrust", "(8)"),
+    "thrust_command":          Quantity("N", r"\alpha_c", "commanded thrust", "(22)"),
+    # motors
+    "motor_speed":             Quantity("rad/s", r"\omega", "motor speed", "(15)"),
+    "motor_current":           Quantity("A", "i", "motor current", "(15)"),
+    "motor_voltage":           Quantity("V", "U", "commanded motor voltage", "(15)"),
+    "demand":                  Quantity("rad2/s2", "U_i", "demanded signed square of the motor speed", "(23)", "U is also the voltage"),
+    "speed_reference":         Quantity("rad/s", r"\omega_d", "filtered speed reference", "(49)"),
+    "motor_disturbance":       Quantity("rad/s3", r"d_{\Delta 2}", "scaled voltage disturbance f23 d2", "(57)"),
+    "motor_disturbance_estimate": Quantity("rad/s3", r"\hat d_{\Delta 2}", "estimated scaled voltage disturbance", "(61)"),
+    "effectiveness":           Quantity("1", r"\rho_i", "effectiveness of the motor's thrust", "(16)"),
+    "kappa":                   Quantity("", r"\kappa", "adaptive thrust allocation kappa_0 ... kappa_n", "(23)"),
+    # energy and the work done on it since the start
+    "energy":                  Quantity("J", "E", "energy of cable and ROV"),
+    "work_thrust":             Quantity("J", "", "work of the thrust"),
+    "work_payload_force":      Quantity("J", "", "work of the external force on the ROV"),
+    "work_payload_damping":    Quantity("J", "", "work of the ROV's damping"),
+    "work_cable_damping":      Quantity("J", "", "work of the cable's damping"),
+    "work_cable_load":         Quantity("J", "", "work of the load along the cable"),
+    "work_vessel":             Quantity("J", "", "energy that came through the vessel end (payout and vessel motion)"),
+    "work_tension":            Quantity("J", "", "work of the changing tension (winch jerk)"),
+    "energy_residual":         Quantity("J", "", "energy minus its start and all work: zero in exact arithmetic"),
+}
+
+METRICS: dict[str, Quantity] = {
+    "tip_peak":                Quantity("m", "", "largest |y(l,t)|"),
+    "tip_rms":                 Quantity("m", "", "root mean square of y(l,t)"),
+    "tip_end":                 Quantity("m", "", "y(l,t) at the end"),
+    "tip_peak_after_fault":    Quantity("m", "", "largest |y(l,t)| from the first fault on"),
+    "mid_peak":                Quantity("m", "", "largest |y(l/2,t)|"),
+    "mid_rms":                 Quantity("m", "", "root mean square of y(l/2,t)"),
+    "quarter_peak":            Quantity("m", "", "largest |y(l/4,t)|"),
+    "quarter_rms":             Quantity("m", "", "root mean square of y(l/4,t)"),
+    "three_quarter_peak":      Quantity("m", "", "largest |y(3l/4,t)|"),
+    "three_quarter_rms":       Quantity("m", "", "root mean square of y(3l/4,t)"),
+    "slope_peak":              Quantity("1", "", "largest |y_x| anywhere"),
+    "effort_rms":              Quantity("N", "", "root mean square of the commanded thrust"),
+    "thrust_peak":             Quantity("N", "", "largest |delivered thrust|"),
+    "motor_speed_peak":        Quantity("rad/s", "", "largest |motor speed|, over all motors"),
+    "motor_voltage_peak":      Quantity("V", "", "largest |motor voltage|, over all motors"),
+    "motor_voltage_rms":       Quantity("V", "", "root mean square of the motor voltages"),
+    "motor_current_peak":      Quantity("A", "", "largest |motor current|, over all motors"),
+    "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of energy and gross work"),
+}
+# fmt: on
+
+
+def label(name: str, quantity: Quantity | None = None) -> str:
+    """Axis label of a channel, e.g. ``ROV displacement y(l,t) $x_1$ [m]``."""
+    q = quantity or CHANNELS.get(name) or METRICS.get(name) or PARAMETERS[name]
+    unit = f" [{q.unit}]" if q.unit not in ("", "1") else ""
+    return f"{q.meaning}{unit}"

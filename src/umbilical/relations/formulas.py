@@ -1,0 +1,71 @@
+"""Tension, wave speed, thrust and motor constants: one formula, one place.
+
+Each function works on floats and arrays in plain Python and is inlined into the kernels that call it.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any, NamedTuple
+
+from numba.extending import register_jitable
+
+Real = Any  # a float inside kernels; a float or an array (any shape) outside
+
+
+@register_jitable
+def tension(distance: Real, net_gravity: Real, payload_mass: Real, hanging_density: Real) -> Real:
+    """Cable tension T = (m + rho (l - x)) (g - a), N; ``distance`` = l - x from the ROV, m (model of (6))."""
+    return (payload_mass + hanging_density * distance) * net_gravity
+
+
+@register_jitable
+def signed_square(speed: float) -> float:
+    """|w| w, rad2/s2: what a propeller turns into thrust and load torque (8), (15)."""
+    return abs(speed) * speed
+
+
+@register_jitable
+def soft_signed_root(demand: float, width: float) -> float:
+    """sgn(U) sqrt|U| made smooth at 0: U / (U^2 + s^2)^(1/4), rad/s for U in rad2/s2."""
+    return demand / sqrt(sqrt(demand * demand + width * width))
+
+
+class MotorConstants(NamedTuple):
+    """The constants f11 ... f23 of the motor written in z1 = w, z2 = (K_t/J) i, eqs. (44)-(46)."""
+
+    f11: float
+    f12: float
+    f13: float
+    f21: float
+    f22: float
+    f23: float
+    current_scale: float
+
+
+def motor_constants(motor: Any) -> MotorConstants:
+    """f11 ... f23 of a :class:`~umbilical.scenario.hardware.Motor`, and K_t/J."""
+    scale = motor.torque_constant / motor.inertia
+    return MotorConstants(
+        f11=-motor.viscous_friction / motor.inertia,
+        f12=-motor.load_coefficient / motor.inertia,
+        f13=1.0 / motor.inertia,
+        f21=-scale * motor.back_emf_constant / motor.inductance,
+        f22=-motor.resistance / motor.inductance,
+        f23=scale / motor.inductance,
+        current_scale=scale,
+    )
+
+
+def steady_speed(motor: Any, voltage: float, voltage_disturbance: float = 0.0, torque_disturbance: float = 0.0) -> float:
+    """Speed at which a motor settles under constant voltage, rad/s: the root of (15) at rest.
+
+    ``w = sgn(G) (-b + sqrt(b^2 + 4 K_Q |G|)) / (2 K_Q)`` with ``G = K_t (U + d2)/R + d1`` and
+    ``b = B + K_t K_b/R``.
+    """
+    drive = motor.torque_constant * (voltage + voltage_disturbance) / motor.resistance + torque_disturbance
+    brake = motor.viscous_friction + motor.torque_constant * motor.back_emf_constant / motor.resistance
+    size = abs(drive)
+    # The textbook root loses all digits as K_Q -> 0; this form of it does not.
+    speed = 2.0 * size / (brake + sqrt(brake * brake + 4.0 * motor.load_coefficient * size)) if size else 0.0
+    return speed if drive >= 0.0 else -speed

@@ -1,0 +1,58 @@
+"""What every record of a scenario is made of: frozen, strict, closed models and fields that carry words."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from umbilical.quantities import PARAMETERS
+
+LARGEST = 1e12
+"""No quantity of this model is larger, in any of its units: beyond it a number is a slip of the unit."""
+
+Number = Annotated[float, Field(ge=-LARGEST, le=LARGEST)]
+"""An entry of a list of numbers."""
+
+
+class Record(BaseModel):
+    """A frozen piece of a scenario: no unknown keys, no coercion from strings, no NaN, no infinity."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, ser_json_inf_nan="constants"
+    )
+
+
+def quantity(
+    name: str,
+    default: Any = ...,
+    *,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    reason: str = "",
+    cure: str = "",
+) -> Any:
+    """A field whose unit, symbol and meaning come from the table of words.
+
+    Args:
+        name: key of :data:`umbilical.quantities.PARAMETERS`.
+        default: as for a pydantic field; omitted, the key is required.
+        gt, ge, lt, le: bounds; without an upper or lower one, :data:`LARGEST` stands in.
+        reason: why the bound is there, shown when it is broken.
+        cure: what to do when it is broken.
+    """
+    word = PARAMETERS[name]
+    if lt is None and le is None:
+        le = LARGEST
+    if gt is None and ge is None:
+        ge = -LARGEST
+    extra: dict[str, Any] = {
+        "unit": word.unit,
+        "symbol": word.symbol,
+        "source": word.source,
+        "reason": reason,
+        "cure": cure,
+    }
+    return Field(default, gt=gt, ge=ge, lt=lt, le=le, description=word.meaning, json_schema_extra=extra)

@@ -1,0 +1,132 @@
+"""The controller: an outer law that wants a thrust, an allocation to the motors, a loop in each motor."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.hardware import Motor
+
+_POSITIVE = {"gt": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "give a positive gain"}
+_NOT_NEGATIVE = {"ge": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "0 or more"}
+
+
+class NoControl(Record):
+    """No thrust is ever commanded."""
+
+    kind: Literal["none"]
+
+
+class ProportionalDerivative(Record):
+    """The paper's baseline, eq. (66): ``alpha_c = -k_p y(l,t) - k_d Dy/Dt(l,t)``."""
+
+    kind: Literal["pd"]
+    position_gain: float = quantity("position_gain", **_NOT_NEGATIVE)
+    velocity_gain: float = quantity("velocity_gain", **_NOT_NEGATIVE)
+    velocity: Literal["sensor", "observer"] = Field(
+        default="observer", description="where the velocity comes from; 'sensor' needs sensors.ideal_velocity"
+    )
+
+
+class BoundaryLaw(Record):
+    """The paper's output-feedback boundary law, eq. (22)."""
+
+    kind: Literal["boundary"]
+    damping_gain: float = quantity("damping_gain", **_POSITIVE)
+    slope_gain: float = quantity("slope_gain", **_NOT_NEGATIVE)
+    rates: Literal["sensor", "observer"] = Field(
+        default="observer", description="where x2 and z2 come from; 'sensor' needs sensors.ideal_velocity"
+    )
+
+
+OuterLaw = Annotated[NoControl | ProportionalDerivative | BoundaryLaw, Field(discriminator="kind")]
+
+
+class HighGainObserver(Record):
+    """Eq. (17) or (19): differentiates one measured signal."""
+
+    time_constant: float = quantity(
+        "observer_time", gt=0.0, le=100.0, reason="the observer differentiates over it", cure="seconds, e.g. 0.005"
+    )
+    damping: float = quantity("observer_damping", gt=0.0, le=100.0, reason="it must decay", cure="2 is critical")
+
+
+class DisturbanceObserver(Record):
+    """Eq. (21): estimates the force on the ROV that the law does not know."""
+
+    enabled: bool = True
+    gain: float = quantity("disturbance_gain", gt=0.0, le=1e6, reason="it is a rate of decay", cure="e.g. 5 1/s")
+    coupling: float = quantity("disturbance_coupling", gt=0.0, reason="it weighs u_a in V3", cure="1 is the preset")
+
+
+class KnownFactors(Record):
+    """Without fault control: every motor gets ``sgn(K_Ti) alpha_c / sum |K_Tj|``."""
+
+    method: Literal["known"]
+
+
+class AdaptiveAllocation(Record):
+    """Fault control, eqs. (23) and (27), with an optional box that kappa is projected onto."""
+
+    method: Literal["adaptive"]
+    rates: tuple[Number, ...] = Field(min_length=2, description="Gamma: rates of kappa_0, kappa_1 ... kappa_n")
+    leak: float = quantity("adaptation_leak", ge=0.0, reason="a negative leak grows", cure="e.g. 1e-3")
+    initial: tuple[Number, ...] = Field(min_length=2, description="kappa(0): kappa_0, kappa_1 ... kappa_n")
+    lower: tuple[Number, ...] | None = Field(
+        default=None, description="lower corner of the box kappa is projected onto"
+    )
+    upper: tuple[Number, ...] | None = Field(
+        default=None, description="upper corner of the box kappa is projected onto"
+    )
+
+
+Allocation = Annotated[KnownFactors | AdaptiveAllocation, Field(discriminator="method")]
+
+
+class MotorLoop(Record):
+    """The multiplicative inverse controller of each motor, eqs. (52)-(64)."""
+
+    speed_gain: float = quantity("speed_gain", **_POSITIVE)
+    current_gain: float = quantity("current_gain", **_POSITIVE)
+    robust_factor: float = quantity(
+        "robust_factor", ge=1.0, le=100.0, reason="the proof needs more than 1", cure="e.g. 1.5"
+    )
+    speed_width: float = quantity("speed_width", gt=0.0, reason="it softens sgn(e1)", cure="e.g. 0.1 rad/s")
+    current_width: float = quantity("current_width", gt=0.0, reason="it softens sgn(e2)", cure="e.g. 2 rad/s2")
+    speed_bound: float = quantity("speed_bound", **_NOT_NEGATIVE)
+    current_bound: float = quantity("current_bound", **_NOT_NEGATIVE)
+    observer_gain: float = quantity("motor_observer_gain", gt=0.0, reason="a rate of decay", cure="e.g. 100 1/s")
+    filter_frequency: float = quantity("filter_frequency", gt=0.0, reason="poles of the filter", cure="e.g. 200 rad/s")
+    root_width: float = quantity("root_width", 1e-3, gt=0.0, reason="the root is singular at 0", cure="e.g. 1e-3")
+
+
+class Nominal(Record):
+    """What the controller believes where it differs from the truth; what is left out is the truth."""
+
+    payload_mass: float | None = quantity("payload_mass", None, gt=0.0, le=1e9, reason="it divides", cure="kg")
+    payload_damping: float | None = quantity("payload_damping", None, ge=0.0, reason="as the truth", cure="0 or more")
+    gravity: float | None = quantity("gravity", None, gt=0.0, le=100.0, reason="as the truth", cure="m/s2")
+    thrust_coefficients: tuple[Number, ...] | None = Field(
+        default=None, description="believed K_T of each motor, N s2/rad2"
+    )
+    motors: tuple[Motor, ...] | None = Field(default=None, description="believed constants of each motor")
+
+
+class Control(Record):
+    """The whole controller. Sections a law does not use may be left out."""
+
+    period: float = quantity(
+        "control_period", gt=0.0, le=10.0, reason="one update per period", cure="seconds, e.g. 1e-3"
+    )
+    outer_period: float | None = quantity(
+        "control_period", None, gt=0.0, le=10.0, reason="period of the outer law", cure="a multiple of the period"
+    )
+    law: OuterLaw
+    velocity_observer: HighGainObserver | None = None
+    slope_observer: HighGainObserver | None = None
+    disturbance_observer: DisturbanceObserver | None = None
+    allocation: Allocation = KnownFactors(method="known")
+    motor_loop: MotorLoop | None = None
+    nominal: Nominal = Nominal()

@@ -1,0 +1,110 @@
+"""What acts from outside: gravity, loads on ROV and cable, the vessel, and the shape at the start."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.signals import Signal
+
+
+class UniformProfile(Record):
+    """The same load on every metre of cable."""
+
+    shape: Literal["uniform"]
+
+
+class SineProfile(Record):
+    """``sin(half_waves * pi * sigma)``."""
+
+    shape: Literal["sine"]
+    half_waves: int = Field(default=1, ge=1, le=50, description="half waves between vessel and ROV")
+
+
+class GaussianProfile(Record):
+    """``exp(-((sigma - center)/width)^2)``."""
+
+    shape: Literal["gaussian"]
+    center: float = quantity("sigma", ge=0.0, le=1.0, reason="sigma = x/l", cure="0 is the vessel, 1 the ROV")
+    width: float = quantity("sigma", gt=0.0, le=10.0, reason="it divides sigma", cure="a share of the length")
+
+
+class TableProfile(Record):
+    """Linear between values given at positions sigma = x/l."""
+
+    shape: Literal["table"]
+    positions: tuple[Number, ...] = Field(min_length=2, description="increasing sigma, from 0 to 1")
+    values: tuple[Number, ...] = Field(min_length=2, description="share of the signal at each position")
+
+
+Profile = Annotated[UniformProfile | SineProfile | GaussianProfile | TableProfile, Field(discriminator="shape")]
+
+
+class CableLoad(Record):
+    """A load along the cable: a profile over sigma = x/l times a signal of time, N/m."""
+
+    profile: Profile
+    signal: Signal
+
+
+class Environment(Record):
+    """Gravity, loads and the vessel."""
+
+    gravity: float = quantity("gravity", gt=0.0, le=100.0, reason="the cable hangs", cure="9.81 m/s2 on earth")
+    payload_force: Signal = Field(default=(), description="external force on the ROV d(t), N")
+    cable_load: tuple[CableLoad, ...] = Field(default=(), description="loads along the cable f(x,t), N/m")
+    vessel_motion: Signal = Field(default=(), description="transverse motion of the vessel e(t), m")
+    vessel_ramp: float = quantity(
+        "signal_time",
+        0.0,
+        ge=0.0,
+        reason="the vessel's motion is faded in over it",
+        cure="0 for none, else a few seconds",
+    )
+
+
+class Straight(Record):
+    """Straight and at rest."""
+
+    shape: Literal["straight"]
+
+
+class SineShape(Record):
+    """``amplitude * sin(half_waves * pi * x / l)``, at rest."""
+
+    shape: Literal["sine"]
+    amplitude: float = quantity("signal_value")
+    half_waves: float = quantity(
+        "sigma", 1.0, gt=0.0, le=100.0, reason="half waves along the cable", cure="1, 1.5, 2 ..."
+    )
+
+
+class GaussianShape(Record):
+    """``amplitude * exp(-((s - distance)/width)^2)`` with s the distance from the ROV, at rest."""
+
+    shape: Literal["gaussian"]
+    amplitude: float = quantity("signal_value")
+    distance: float = quantity(
+        "length", ge=0.0, le=2e4, reason="metres up from the ROV", cure="between 0 and the length"
+    )
+    width: float = quantity("length", gt=0.0, le=2e4, reason="it divides the distance", cure="metres")
+
+
+class StaticShape(Record):
+    """Static deflection under a steady force on the ROV, released at t = 0."""
+
+    shape: Literal["static"]
+    force: float = quantity("signal_value")
+
+
+class TableShape(Record):
+    """Displacements at positions sigma = x/l, joined by a cubic spline, at rest."""
+
+    shape: Literal["table"]
+    positions: tuple[Number, ...] = Field(min_length=4, description="increasing sigma, from 0 to 1")
+    displacements: tuple[Number, ...] = Field(min_length=4, description="displacement at each position, m")
+
+
+InitialShape = Annotated[Straight | SineShape | GaussianShape | StaticShape | TableShape, Field(discriminator="shape")]

@@ -1,0 +1,49 @@
+"""Cable, ROV and motors: what is built."""
+
+from __future__ import annotations
+
+from umbilical.scenario.base import Record, quantity
+from umbilical.scenario.signals import Signal
+
+
+class Cable(Record):
+    """The umbilical: a string of line density rho under the tension of what hangs below each point."""
+
+    line_density: float = quantity(
+        "line_density", gt=0.0, le=1e4, reason="waves travel at sqrt(T/rho)", cure="kg per metre, in air"
+    )
+    damping: float = quantity("cable_damping", ge=0.0, reason="negative damping feeds the cable", cure="use 0 or more")
+    wet_line_density: float | None = quantity(
+        "wet_line_density", None, ge=0.0, le=1e4, reason="T = (m + wet_line_density (l - x)) (g - a)",
+        cure="leave it out for the line density, 0 for constant tension",
+    )  # fmt: skip
+
+    @property
+    def hanging_density(self) -> float:
+        """Line density that loads the tension, kg/m."""
+        return self.line_density if self.wet_line_density is None else self.wet_line_density
+
+
+class Payload(Record):
+    """The ROV, a point mass at the cable's lower end."""
+
+    mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the tension at the ROV is m (g - a)", cure="kg")
+    damping: float = quantity("payload_damping", ge=0.0, reason="negative damping feeds the ROV", cure="use 0 or more")
+
+
+class Motor(Record):
+    """One thruster: an electric motor with its propeller, eq. (15)."""
+
+    inertia: float = quantity("inertia", gt=0.0, reason="it divides the torque", cure="kg m2, rotor and propeller")
+    viscous_friction: float = quantity("viscous_friction", ge=0.0, reason="friction takes energy", cure="0 or more")
+    torque_constant: float = quantity("torque_constant", gt=0.0, reason="the current must turn the shaft", cure="N m/A")
+    load_coefficient: float = quantity("load_coefficient", ge=0.0, reason="the propeller brakes", cure="0 or more")
+    resistance: float = quantity("resistance", gt=0.0, reason="it limits the current of a stalled motor", cure="ohm")
+    inductance: float = quantity("inductance", gt=0.0, reason="it divides the voltage", cure="henry, above 0")
+    back_emf_constant: float = quantity("back_emf_constant", ge=0.0, reason="the EMF opposes the drive", cure="V s/rad")
+    thrust_coefficient: float = quantity("thrust_coefficient", reason="either sign, not 0", cure="N s2/rad2")
+    voltage_limit: float | None = quantity(
+        "voltage_limit", None, gt=0.0, reason="the drive is clipped at plus and minus it", cure="leave out for none"
+    )
+    torque_disturbance: Signal = ()
+    voltage_disturbance: Signal = ()
