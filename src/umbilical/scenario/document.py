@@ -48,7 +48,8 @@ def read(text: str, origin: str = "scenario") -> Data:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise FileError(f"{origin}: this is not TOML: {error}") from error
+        end = f"at the end of the text, line {len(text.splitlines())}"
+        raise FileError(f"{origin}: this is not TOML: {str(error).replace('at end of document', end)}") from error
     except RecursionError as error:
         raise FileError(f"{origin}: this is not a scenario: nested too deeply") from error
 

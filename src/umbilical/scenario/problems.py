@@ -35,7 +35,8 @@ def problems_of(error: ValidationError, record: type[Record]) -> list[Problem]:
         error: what validation raised.
         record: the kind of record that was validated.
     """
-    return [_problem(complaint, record) for complaint in error.errors(include_url=False)]
+    complaints = error.errors(include_url=False)
+    return [_problem(complaint, record) for complaint in complaints if not _consequence(complaint)]
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -60,6 +61,11 @@ def shown(value: Any, field: FieldInfo | None = None) -> str:
     if isinstance(value, list | tuple):
         return f"a list of {len(value)}"
     return f"{value} ({type(value).__name__})"
+
+
+def _consequence(complaint: Mapping[str, Any]) -> bool:
+    """Whether pydantic calls a list too short only because it left out entries that are wrong in themselves."""
+    return complaint["type"] == "too_short" and len(complaint["input"]) >= complaint["ctx"]["min_length"]
 
 
 def _problem(complaint: Mapping[str, Any], record: type[Record]) -> Problem:
