@@ -64,7 +64,7 @@ def test_reachable_speed_and_poles_of_the_paper_motor() -> None:
 
 
 def test_motor_limit_is_that_of_runge_kutta() -> None:
-    """The step the refusal allows keeps the fastest pole of the motor inside the stability region; 1.2 of it does not."""
+    """The step the refusal allows keeps the fastest pole of the motor stable; 1.2 of it does not."""
     with pytest.raises(ScenarioError) as caught:
         load("paper", {"motors.1.inductance": 1e-6})
     (problem,) = (p for p in caught.value.problems if p.key == "grid.step")
