@@ -15,11 +15,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from umbilical.admission import load, preset_names
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.engine.simulate import simulate
     from umbilical.plots import plot_cable, plot_motors, plot_observers, plot_overview, plot_tip
     from umbilical.run import Run, Status, open_run
-    from umbilical.scenario import Scenario, load, preset_names
+    from umbilical.scenario import Scenario
 
 __version__ = "0.1.0"
 
@@ -31,14 +32,14 @@ _HOMES = {
     "Run": "umbilical.run",
     "Scenario": "umbilical.scenario",
     "Status": "umbilical.run",
-    "load": "umbilical.scenario",
+    "load": "umbilical.admission",
     "open_run": "umbilical.run",
     "plot_cable": "umbilical.plots",
     "plot_motors": "umbilical.plots",
     "plot_observers": "umbilical.plots",
     "plot_overview": "umbilical.plots",
     "plot_tip": "umbilical.plots",
-    "preset_names": "umbilical.scenario",
+    "preset_names": "umbilical.admission",
     "simulate": "umbilical.engine.simulate",
 }
 

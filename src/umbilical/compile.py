@@ -65,14 +65,28 @@ def is_warm() -> bool:
     return any(cache_folder().rglob("*run_steps*.nbc"))
 
 
-def kernel(function: Callable[..., Any]) -> Any:
-    """Compile ``function`` when it is first called, keep it on disk, and release the GIL while it runs.
-
-    No fast-math: results must not depend on the compiler's mood. Division by zero gives inf or NaN,
-    which the engine looks for, instead of raising inside a loop.
-    """
+def _compiled(function: Callable[..., Any], **options: bool) -> Any:
     before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
     try:
-        return numba.njit(function, cache=True, nogil=True, error_model="numpy", _nrt=False)
+        return numba.njit(
+            function, cache=True, nogil=True, error_model="numpy", _nrt=False, no_cfunc_wrapper=True, **options
+        )
     finally:
         config.CACHE_DIR = before
+
+
+def kernel(function: Callable[..., Any]) -> Any:
+    """A compiled function that other kernels take in as their own code, and that Python can call, too.
+
+    Compiled when first called, kept on disk, and without the GIL while it runs. No fast-math: results must
+    not depend on the compiler's mood. Division by zero gives inf or NaN, which the engine looks for, instead
+    of raising inside a loop. Without numba's reference counting (three times the cost of the arithmetic), so
+    a kernel that allocates does not compile. Taking in, rather than calling, spares both the passing of large
+    arguments and the compilation of every kernel on its own: one run compiles one function.
+    """
+    return _compiled(function, inline="always")
+
+
+def entry_kernel(function: Callable[..., Any]) -> Any:
+    """A kernel that stays a function of its own: what Python calls, and what kernels call rarely."""
+    return _compiled(function)

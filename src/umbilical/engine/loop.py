@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import entry_kernel, kernel
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
 from umbilical.control.contract import THRUST_COMMAND, VOLTAGE, Command, Controller, Decision, Readings, to_measurement
@@ -76,7 +76,7 @@ def update_world(
     return keep(world, record, update, last, memory.kappa)
 
 
-@kernel
+@entry_kernel
 def run_steps(
     world: World,
     settings: CascadeSettings,
@@ -89,10 +89,12 @@ def run_steps(
 ) -> int:
     """Control periods ``begin`` onwards, one per entry of ``first``; returns the update that ended it, or -1."""
     for j in range(first.size - 1):
-        enter_step(world.plant, world.state, inputs, first[j])
-        if not update_world(world, settings, memory, record, noise, j, begin + j, False):
-            return begin + j
-        advance_period(world, inputs, first[j], first[j + 1])
+        for i in range(first[j], first[j + 1]):
+            if inputs.refresh[i]:
+                enter_step(world.plant, world.state, inputs, i)
+            if i == first[j] and not update_world(world, settings, memory, record, noise, j, begin + j, False):
+                return begin + j
+            advance(world.plant, world.state, inputs, i, world.decision.motors[VOLTAGE])
     return FINISHED
 
 
@@ -100,7 +102,7 @@ def run_steps(
 def advance_period(world: World, inputs: Inputs, begin: int, end: int) -> None:
     """All plant steps of one control period, entered already at ``begin``."""
     for i in range(begin, end):
-        if i > begin:
+        if i > begin and inputs.refresh[i]:
             enter_step(world.plant, world.state, inputs, i)
         advance(world.plant, world.state, inputs, i, world.decision.motors[VOLTAGE])
 
@@ -142,7 +144,8 @@ class Python:
         """Control periods ``begin`` onwards; returns the update that ended it, or -1."""
         world = self._world
         for j in range(first.size - 1):
-            enter_step(world.plant, world.state, inputs, first[j])
+            if inputs.refresh[first[j]]:
+                enter_step(world.plant, world.state, inputs, first[j])
             if not self._update(noise, j, begin + j, last=False):
                 return begin + j
             advance_period(world, inputs, first[j], first[j + 1])

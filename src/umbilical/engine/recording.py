@@ -112,18 +112,20 @@ def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
 
 
 @kernel
-def count_steep(state: PlantState, slopes: np.ndarray) -> int:
-    """Points whose slope is beyond :data:`STEEPEST` or not a number; keeps the largest slopes."""
+def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
+    """Keep the largest slopes; False if one is beyond :data:`STEEPEST` or not a number."""
     g = state.fields[SLOPE]
     n = g.shape[1] - 1
     scale = 2.0 * n / state.now[LENGTH]
-    steep = 0
     for j in range(5):
         for e in range(n):
             slope = abs(g[j, e]) * scale
-            slopes[e] = slope if slope > slopes[e] else slopes[e]
-            steep += 0 if slope <= STEEPEST else 1
-    return steep
+            # Written so that a slope that is not a number is kept, too.
+            slopes[e] = slopes[e] if slope <= slopes[e] else slope
+    good = True
+    for e in range(n):
+        good = good and slopes[e] <= STEEPEST
+    return good
 
 
 @kernel
@@ -155,7 +157,7 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
         finite = finite and np.isfinite(state.motors[ROTOR_SPEED, k]) and np.isfinite(state.motors[CURRENT, k])
         finite = finite and np.isfinite(decision.motors[VOLTAGE, k])
     tally.count[0] += 1
-    return count_steep(state, tally.slopes) == 0 and finite
+    return watch_slopes(state, tally.slopes) and finite
 
 
 @kernel

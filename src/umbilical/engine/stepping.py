@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import entry_kernel, kernel
 from umbilical.plant.cable import (
     ACCELERATION as CABLE_ACCELERATION,
 )
@@ -45,7 +45,7 @@ from umbilical.plant.exogenous import (
 )
 from umbilical.plant.initial import initial_displacement
 from umbilical.plant.motors import advance_motor, applied_voltage, make_motor_state, make_motors, thrust
-from umbilical.plant.power import PAYLOAD_FORCE, TENSION, TERMS, THRUST, powers, strain_integral
+from umbilical.plant.power import TENSION, TERMS, THRUST, powers, strain_integral
 from umbilical.scenario.scenario import Scenario
 
 DELIVERED = 8
@@ -99,16 +99,19 @@ def make_plant_state(scenario: Scenario) -> PlantState:
     return PlantState(fields, make_motor_state(n), now, np.zeros((6, n)), np.zeros(loads), power, drive)
 
 
-@kernel
+@entry_kernel
 def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
-    """The outside world just after the start of step i; forces are evaluated anew where something jumped."""
+    """The outside world just after the start of step i, where something jumped: forces are evaluated anew.
+
+    Where nothing jumped, all is as the last step left it, and this is not called.
+    """
     before = state.now[NET_GRAVITY]
     look_outside(state, inputs, i, START)
-    if inputs.refresh[i]:
-        book_tension_jump(plant, state, before)
-        refresh(plant, state, CABLE_ACCELERATION)
+    book_tension_jump(plant, state, before)
+    refresh(plant, state, CABLE_ACCELERATION)
     if not plant.ideal:
         state.now[DELIVERED] = present_thrust(plant, state)
+    note_power(plant, state, AT_END)
 
 
 @kernel
@@ -116,12 +119,12 @@ def look_outside(state: PlantState, inputs: Inputs, i: int, column: int) -> None
     """The outside world at start or end of step i. At a start the vessel is where the last step left it."""
     for row in range(DELIVERED):
         if row != VESSEL or column == END:
-            state.now[row] = inputs.world[i, row, column]
+            state.now[row] = inputs.world[i, column, row]
     for k in range(state.loads.size):
-        state.loads[k] = inputs.loads[i, k, column]
+        state.loads[k] = inputs.loads[i, column, k]
     for row in range(state.motors_now.shape[0]):
         for k in range(state.motors_now.shape[1]):
-            state.motors_now[row, k] = inputs.motors[i, row, k, column]
+            state.motors_now[row, k] = inputs.motors[i, column, row, k]
 
 
 @kernel
@@ -164,10 +167,10 @@ def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, volt
     drive = state.drive
     for k in range(voltage.size):
         for c in range(3):
-            share, stuck = inputs.motors[i, DRIVE_EFFECTIVENESS, k, c], inputs.motors[i, DRIVE_STUCK, k, c]
+            share, stuck = inputs.motors[i, c, DRIVE_EFFECTIVENESS, k], inputs.motors[i, c, DRIVE_STUCK, k]
             reached = applied_voltage(plant.motors, k, voltage[k], share, stuck)
-            drive[0, c] = reached + inputs.motors[i, VOLTAGE, k, c]
-            drive[1, c] = inputs.motors[i, TORQUE, k, c]
+            drive[0, c] = reached + inputs.motors[i, c, VOLTAGE, k]
+            drive[1, c] = inputs.motors[i, c, TORQUE, k]
         advance_motor(plant.motors, state.motors, k, inputs.dt[i], drive[0], drive[1])
 
 
@@ -177,13 +180,13 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     fields, now = state.fields, state.now
     elements = fields.shape[2] - 1
     dt = inputs.dt[i]
-    start_power(plant, state, inputs.refresh[i])
+    start_power(state)
     kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
-    length, speed = inputs.world[i, LENGTH, MIDDLE], inputs.world[i, SPEED, MIDDLE]
+    length, speed = inputs.world[i, MIDDLE, LENGTH], inputs.world[i, MIDDLE, SPEED]
     top_slope = 2.0 * elements / length * fields[SLOPE, 0, 0]
-    fields[VELOCITY, 0, 0] = inputs.world[i, VESSEL_VELOCITY, MIDDLE] + speed * top_slope
+    fields[VELOCITY, 0, 0] = inputs.world[i, MIDDLE, VESSEL_VELOCITY] + speed * top_slope
     drift(plant.cable, fields, dt, length, speed)
-    fields[DISPLACEMENT, 0, 0] = inputs.world[i, VESSEL, END]
+    fields[DISPLACEMENT, 0, 0] = inputs.world[i, END, VESSEL]
     look_outside(state, inputs, i, END)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, voltage)
@@ -198,13 +201,8 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
 
 
 @kernel
-def start_power(plant: Plant, state: PlantState, jumped: bool) -> None:
-    """Power at the start of a step: that of the last end, but for what a new command or a jump changes."""
-    if jumped:
-        note_power(plant, state, AT_START)
-        return
-    tip = state.fields[VELOCITY, 0, state.fields.shape[2] - 1]
+def start_power(state: PlantState) -> None:
+    """Power at the start of a step: that of the last end, but for what a new command changes."""
     for term in range(TERMS):
         state.power[AT_START, term] = state.power[AT_END, term]
-    state.power[AT_START, THRUST] = tip * state.now[DELIVERED]
-    state.power[AT_START, PAYLOAD_FORCE] = tip * state.now[FORCE]
+    state.power[AT_START, THRUST] = state.fields[VELOCITY, 0, state.fields.shape[2] - 1] * state.now[DELIVERED]

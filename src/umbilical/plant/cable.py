@@ -204,28 +204,32 @@ def kick(cable: Cable, fields: np.ndarray, dt: float, length: float, tip_force: 
 
 @kernel
 def drift(cable: Cable, fields: np.ndarray, dt: float, length: float, speed: float) -> None:
-    """Y += dt (W - (v A/l) Y_sigma), the slope taken at the middle of the step."""
+    """Y += dt (W - (v A/l) Y_sigma); the vessel's node is left to its boundary condition."""
     n = fields.shape[2] - 1
     y, w = fields[DISPLACEMENT], fields[VELOCITY]
     if speed != 0.0:
-        transport(cable, fields, dt, dt * speed / length * 2.0 * n)
+        drift_and_transport(cable, fields, dt, dt * speed / length * 2.0 * n)
+        return
     for row in range(4):
         for e in range(n + 1):
             y[row, e] += dt * w[row, e]
 
 
 @kernel
-def transport(cable: Cable, fields: np.ndarray, dt: float, shift: float) -> None:
-    """Y -= shift * A * (slope + dt/2 * derivative of W), the slope of a shared node being the mean of both sides."""
+def drift_and_transport(cable: Cable, fields: np.ndarray, dt: float, shift: float) -> None:
+    """Y += dt W - shift A (slope at the middle of the step), the slope of a shared node being that of both sides."""
     n = fields.shape[2] - 1
-    y, g, r, above = fields[DISPLACEMENT], fields[SLOPE], fields[SCRATCH], cable.above
-    differentiate(fields[VELOCITY], r)
+    y, w, above = fields[DISPLACEMENT], fields[VELOCITY], cable.above
+    g, r = fields[SLOPE], fields[SCRATCH]
+    differentiate(w, r)
     half = 0.5 * dt
     for j in range(1, 4):
         for e in range(n):
-            y[j, e] -= shift * above[j, e] * (g[j, e] + half * r[j, e])
+            y[j, e] += dt * w[j, e] - shift * above[j, e] * (g[j, e] + half * r[j, e])
     for e in range(1, n):
-        y[0, e] -= shift * above[0, e] * 0.5 * (g[0, e] + half * r[0, e] + g[4, e - 1] + half * r[4, e - 1])
+        both = g[0, e] + half * r[0, e] + g[4, e - 1] + half * r[4, e - 1]
+        y[0, e] += dt * w[0, e] - shift * above[0, e] * 0.5 * both
+    y[0, n] += dt * w[0, n]
 
 
 @kernel

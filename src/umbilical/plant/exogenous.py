@@ -7,6 +7,7 @@ end of one step takes the value before it and the start of the next the value af
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,14 +36,14 @@ TORQUE, VOLTAGE, EFFECTIVENESS, STUCK, DRIVE_EFFECTIVENESS, DRIVE_STUCK = range(
 
 
 class Inputs(NamedTuple):
-    """What acts from outside; the first dimension is the step, the last one its start, middle and end.
+    """What acts from outside; the first dimension is the step, the second its start, middle and end.
 
     Attributes:
         dt: length of the step, s, shape (steps,).
         refresh: whether something jumped at its start, so that forces must be evaluated anew.
-        world: winch l, v, a; g - a; a'/(g - a); vessel e, e'; force on the ROV d: shape (steps, 8, 3).
-        motors: d1 and d2; effectiveness and stuck value of the thrust, then of the drive: (steps, 6, motors, 3).
-        loads: signals of the loads along the cable, N/m, shape (steps, loads, 3).
+        world: winch l, v, a; g - a; a'/(g - a); vessel e, e'; force on the ROV d: shape (steps, 3, 8).
+        motors: d1 and d2; effectiveness and stuck value of the thrust, then of the drive: (steps, 3, 6, motors).
+        loads: signals of the loads along the cable, N/m, shape (steps, 3, loads).
     """
 
     dt: Array
@@ -92,57 +93,59 @@ def sample(scenario: Scenario, steps: Steps) -> Inputs:
     """All inputs at the given steps."""
     count = steps.start.size
     environment = scenario.environment
-    motion = winch.WinchMotion(*(np.empty((count, 3)) for _ in winch.WinchMotion._fields))
-    for column, t, side in _instants(steps):
-        for row, values in zip(motion, winch.evaluate(scenario.winch, t, side), strict=True):
-            row[:, column] = values
-    world = np.zeros((count, 8, 3))
-    world[:, LENGTH], world[:, SPEED], world[:, ACCELERATION] = motion.length, motion.speed, motion.acceleration
-    world[:, NET_GRAVITY] = environment.gravity - motion.acceleration
-    world[:, JERK_RATIO] = motion.jerk / world[:, NET_GRAVITY]
+    world = np.zeros((count, 3, 8))
+    motion = _at_all(lambda t, side: winch.evaluate(scenario.winch, t, side), steps)
+    for row, values in zip((LENGTH, SPEED, ACCELERATION), motion, strict=False):
+        world[:, :, row] = values
+    world[:, :, NET_GRAVITY] = environment.gravity - motion[2]
+    world[:, :, JERK_RATIO] = motion[3] / world[:, :, NET_GRAVITY]
     if environment.vessel_motion:
-        for column, t, side in _instants(steps):
-            world[:, VESSEL, column], world[:, VESSEL_VELOCITY, column] = signals.vessel(environment, t, side)
-    world[:, FORCE] = _signal(environment.payload_force, steps)
-    loads = np.zeros((count, len(environment.cable_load), 3))
+        vessel = _at_all(lambda t, side: signals.vessel(environment, t, side), steps)
+        world[:, :, VESSEL], world[:, :, VESSEL_VELOCITY] = vessel
+    if environment.payload_force:
+        world[:, :, FORCE] = _signal(environment.payload_force, steps)
+    loads = np.zeros((count, 3, len(environment.cable_load)))
     for k, load in enumerate(environment.cable_load):
-        loads[:, k] = _signal(load.signal, steps)
-    refresh = np.isin(steps.start, steps.jumps)
+        loads[:, :, k] = _signal(load.signal, steps)
+    refresh = np.zeros(count, dtype=np.bool_)
+    refresh[np.isin(steps.start, steps.jumps)] = True
     return Inputs(steps.end - steps.start, refresh, world, _motors(scenario, steps), loads)
 
 
-def _instants(steps: Steps) -> tuple[tuple[int, Array, signals.Side], ...]:
-    """Column, instants and side of the start, the middle and the end of all steps."""
-    middle = 0.5 * (steps.start + steps.end)
-    return (START, steps.start, "right"), (MIDDLE, middle, "right"), (END, steps.end, "left")
+def _at_all(function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps) -> list[Array]:
+    """Functions of time at start, middle and end of every step, each of shape (steps, 3)."""
+    middle = function(0.5 * (steps.start + steps.end), "right")
+    if steps.jumps.size:
+        start, end = function(steps.start, "right"), function(steps.end, "left")
+    else:  # nothing jumps: each knot serves as the end of one step and the start of the next
+        knots = function(np.append(steps.start, steps.end[-1]), "right")
+        start, end = [k[:-1] for k in knots], [k[1:] for k in knots]
+    out = [np.empty((steps.start.size, 3)) for _ in middle]
+    for values, *columns in zip(out, start, middle, end, strict=True):
+        for place, column in enumerate(columns):
+            values[:, place] = column
+    return out
 
 
 def _signal(signal: signals.Signal, steps: Steps) -> Array:
     """A signal at start, middle and end of every step, shape (steps, 3)."""
-    out = np.zeros((steps.start.size, 3))
-    if not signal:
-        return out
-    instants = _instants(steps)
-    out[:, MIDDLE] = signals.evaluate(signal, instants[MIDDLE][1])
-    if steps.jumps.size:
-        for column, t, side in (instants[START], instants[END]):
-            out[:, column] = signals.evaluate(signal, t, side)
-    else:  # nothing jumps: each knot serves as the end of one step and the start of the next
-        knots = signals.evaluate(signal, np.append(steps.start, steps.end[-1]))
-        out[:, START], out[:, END] = knots[:-1], knots[1:]
-    return out
+    return _at_all(lambda t, side: (signals.evaluate(signal, t, side),), steps)[0]
 
 
 def _motors(scenario: Scenario, steps: Steps) -> Array:
-    out = np.zeros((steps.start.size, 6, len(scenario.motors), 3))
-    out[:, EFFECTIVENESS] = out[:, DRIVE_EFFECTIVENESS] = 1.0
+    out = np.zeros((steps.start.size, 3, 6, len(scenario.motors)))
+    out[:, :, EFFECTIVENESS] = out[:, :, DRIVE_EFFECTIVENESS] = 1.0
     for k, motor in enumerate(scenario.motors):
-        out[:, TORQUE, k] = _signal(motor.torque_disturbance, steps)
-        out[:, VOLTAGE, k] = _signal(motor.voltage_disturbance, steps)
+        for row, signal in ((TORQUE, motor.torque_disturbance), (VOLTAGE, motor.voltage_disturbance)):
+            if signal:
+                out[:, :, row, k] = _signal(signal, steps)
     for number in sorted({fault.motor for fault in scenario.faults}):
-        for target, share, stuck in (("thrust", EFFECTIVENESS, STUCK), ("voltage", DRIVE_EFFECTIVENESS, DRIVE_STUCK)):
-            for column, t, side in _instants(steps):
-                out[:, share, number - 1, column], out[:, stuck, number - 1, column] = faults.effect(
-                    scenario.faults, number, target, t, side
-                )
+        _add_faults(scenario, number, steps, out[:, :, :, number - 1])
     return out
+
+
+def _add_faults(scenario: Scenario, number: int, steps: Steps, out: Array) -> None:
+    """Faults of one motor into ``out``, shape (steps, 3, 6)."""
+    for target, share, stuck in (("thrust", EFFECTIVENESS, STUCK), ("voltage", DRIVE_EFFECTIVENESS, DRIVE_STUCK)):
+        effects = _at_all(lambda t, side, of=target: faults.effect(scenario.faults, number, of, t, side), steps)
+        out[:, :, share], out[:, :, stuck] = effects
