@@ -43,16 +43,15 @@ def quantity(
         reason: why the bound is there, shown when it is broken.
         cure: what to do when it is broken.
     """
-    word = PARAMETERS[name]
     if lt is None and le is None:
         le = LARGEST
     if gt is None and ge is None:
         ge = -LARGEST
-    extra: dict[str, Any] = {
-        "unit": word.unit,
-        "symbol": word.symbol,
-        "source": word.source,
-        "reason": reason,
-        "cure": cure,
-    }
-    return Field(default, gt=gt, ge=ge, lt=lt, le=le, description=word.meaning, json_schema_extra=extra)
+    return Field(default, gt=gt, ge=ge, lt=lt, le=le, **words(name, reason, cure))
+
+
+def words(name: str, reason: str = "", cure: str = "") -> Any:
+    """What the table of words says about a name, as arguments of a pydantic field; as for :func:`quantity`."""
+    word = PARAMETERS[name]
+    extra = {"unit": word.unit, "symbol": word.symbol, "source": word.source, "reason": reason, "cure": cure}
+    return {"description": word.meaning, "json_schema_extra": extra}

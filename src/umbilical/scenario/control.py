@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.base import Number, Record, quantity, words
 from umbilical.scenario.hardware import Motor
 
 _POSITIVE = {"gt": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "give a positive gain"}
@@ -56,7 +56,7 @@ class HighGainObserver(Record):
 class DisturbanceObserver(Record):
     """Eq. (21): estimates the force on the ROV that the law does not know."""
 
-    enabled: bool = True
+    enabled: bool = Field(default=True, description="false: estimate nothing, D^ = 0")
     gain: float = quantity("disturbance_gain", gt=0.0, le=1e6, reason="it is a rate of decay", cure="e.g. 5 1/s")
     coupling: float = quantity("disturbance_coupling", gt=0.0, reason="it weighs u_a in V3", cure="1 is the preset")
 
@@ -71,9 +71,9 @@ class AdaptiveAllocation(Record):
     """Fault control, eqs. (23) and (27), with an optional box that kappa is projected onto."""
 
     method: Literal["adaptive"]
-    rates: tuple[Number, ...] = Field(min_length=2, description="Gamma: rates of kappa_0, kappa_1 ... kappa_n")
+    rates: tuple[Number, ...] = Field(min_length=2, **words("adaptation_rate"))
     leak: float = quantity("adaptation_leak", ge=0.0, reason="a negative leak grows", cure="e.g. 1e-3")
-    initial: tuple[Number, ...] = Field(min_length=2, description="kappa(0): kappa_0, kappa_1 ... kappa_n")
+    initial: tuple[Number, ...] = Field(min_length=2, **words("kappa_initial"))
     lower: tuple[Number, ...] | None = Field(
         default=None, description="lower corner of the box kappa is projected onto"
     )
@@ -121,7 +121,7 @@ class Control(Record):
         "control_period", gt=0.0, le=10.0, reason="one update per period", cure="seconds, e.g. 1e-3"
     )
     outer_period: float | None = quantity(
-        "control_period", None, gt=0.0, le=10.0, reason="period of the outer law", cure="a multiple of the period"
+        "outer_period", None, gt=0.0, le=10.0, reason="period of the outer law", cure="a multiple of the period"
     )
     law: OuterLaw
     velocity_observer: HighGainObserver | None = None

@@ -27,8 +27,8 @@ class GaussianProfile(Record):
     """``exp(-((sigma - center)/width)^2)``."""
 
     shape: Literal["gaussian"]
-    center: float = quantity("sigma", ge=0.0, le=1.0, reason="sigma = x/l", cure="0 is the vessel, 1 the ROV")
-    width: float = quantity("sigma", gt=0.0, le=10.0, reason="it divides sigma", cure="a share of the length")
+    center: float = quantity("profile_center", ge=0.0, le=1.0, reason="sigma = x/l", cure="0 is the vessel, 1 the ROV")
+    width: float = quantity("profile_width", gt=0.0, le=10.0, reason="it divides sigma", cure="a share of the length")
 
 
 class TableProfile(Record):
@@ -46,7 +46,7 @@ class CableLoad(Record):
     """A load along the cable: a profile over sigma = x/l times a signal of time, N/m."""
 
     profile: Profile
-    signal: Signal
+    signal: Signal = Field(description="how much of the profile acts, over time, N/m")
 
 
 class Environment(Record):
@@ -57,7 +57,7 @@ class Environment(Record):
     cable_load: tuple[CableLoad, ...] = Field(default=(), description="loads along the cable f(x,t), N/m")
     vessel_motion: Signal = Field(default=(), description="transverse motion of the vessel e(t), m")
     vessel_ramp: float = quantity(
-        "signal_time",
+        "vessel_ramp",
         0.0,
         ge=0.0,
         reason="the vessel's motion is faded in over it",
@@ -75,9 +75,9 @@ class SineShape(Record):
     """``amplitude * sin(half_waves * pi * x / l)``, at rest."""
 
     shape: Literal["sine"]
-    amplitude: float = quantity("signal_value")
+    amplitude: float = quantity("shape_amplitude")
     half_waves: float = quantity(
-        "sigma", 1.0, gt=0.0, le=100.0, reason="half waves along the cable", cure="1, 1.5, 2 ..."
+        "shape_half_waves", 1.0, gt=0.0, le=100.0, reason="half waves along the cable", cure="1, 1.5, 2 ..."
     )
 
 
@@ -85,18 +85,18 @@ class GaussianShape(Record):
     """``amplitude * exp(-((s - distance)/width)^2)`` with s the distance from the ROV, at rest."""
 
     shape: Literal["gaussian"]
-    amplitude: float = quantity("signal_value")
+    amplitude: float = quantity("shape_amplitude")
     distance: float = quantity(
-        "length", ge=0.0, le=2e4, reason="metres up from the ROV", cure="between 0 and the length"
+        "shape_distance", ge=0.0, le=2e4, reason="metres up from the ROV", cure="between 0 and the length"
     )
-    width: float = quantity("length", gt=0.0, le=2e4, reason="it divides the distance", cure="metres")
+    width: float = quantity("shape_width", gt=0.0, le=2e4, reason="it divides the distance", cure="metres")
 
 
 class StaticShape(Record):
     """Static deflection under a steady force on the ROV, released at t = 0."""
 
     shape: Literal["static"]
-    force: float = quantity("signal_value")
+    force: float = quantity("static_force")
 
 
 class TableShape(Record):

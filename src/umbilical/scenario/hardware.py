@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from umbilical.scenario.base import Record, quantity
 from umbilical.scenario.signals import Signal
 
@@ -45,5 +47,5 @@ class Motor(Record):
     voltage_limit: float | None = quantity(
         "voltage_limit", None, gt=0.0, reason="the drive is clipped at plus and minus it", cure="leave out for none"
     )
-    torque_disturbance: Signal = ()
-    voltage_disturbance: Signal = ()
+    torque_disturbance: Signal = Field(default=(), description="torque from outside d1(t), N m")
+    voltage_disturbance: Signal = Field(default=(), description="voltage beside the drive's d2(t), V")

@@ -42,9 +42,9 @@ class Scenario(Record):
     (3.0, False)
     """
 
-    schema_version: Literal[1] = 1
+    schema_version: Literal[1] = Field(default=1, description="version of this format")
     name: str = Field(min_length=1, max_length=80, description="short name, also of the result file")
-    description: str = ""
+    description: str = Field(default="", description="what it shows, in a sentence")
     duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time", cure="seconds")
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
     ideal_thruster: bool = Field(default=False, description="deliver the commanded thrust as it is, without motors")

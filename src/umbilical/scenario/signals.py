@@ -31,7 +31,7 @@ class Bell(Record):
     kind: Literal["bell"]
     amplitude: float = quantity("signal_value")
     center: float = quantity("signal_time")
-    width: float = quantity("signal_time", gt=0.0, reason="it divides the time", cure="give a positive width")
+    width: float = quantity("signal_width", gt=0.0, reason="it divides the time", cure="give a positive width")
     exponent: float = quantity("signal_exponent", gt=0.0, le=100.0, reason="it is half a power", cure="2 is usual")
 
 
@@ -60,7 +60,7 @@ class Table(Record):
     kind: Literal["table"]
     times: tuple[Number, ...] = Field(min_length=2, description="increasing instants, s; they must cover the run")
     values: tuple[Number, ...] = Field(min_length=2, description="value at each instant")
-    interpolation: Literal["smooth", "linear"] = "smooth"
+    interpolation: Literal["smooth", "linear"] = Field(default="smooth", description="curve between the instants")
 
 
 Term = Annotated[Constant | Sine | Bell | Step | Pulse | Table, Field(discriminator="kind")]

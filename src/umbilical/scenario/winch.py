@@ -27,7 +27,7 @@ class ConstantSpeed(Record):
     """``length = start_length + speed * t``: the winch runs at one speed from before the start."""
 
     law: Literal["speed"]
-    start_length: float = quantity("length", **_SHORTEST)
+    start_length: float = quantity("winch_start_length", **_SHORTEST)
     speed: float = quantity("payout_speed")
 
 
@@ -38,29 +38,31 @@ class Quintic(Record):
     """
 
     law: Literal["quintic"]
-    start_length: float = quantity("length", **_SHORTEST)
-    end_length: float = quantity("length", **_SHORTEST)
-    start: float = quantity("signal_time", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
-    duration: float = quantity("duration", gt=0.0, reason="it divides the time", cure="how long the winch runs, s")
+    start_length: float = quantity("winch_start_length", **_SHORTEST)
+    end_length: float = quantity("winch_end_length", **_SHORTEST)
+    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
+    duration: float = quantity(
+        "winch_duration", gt=0.0, reason="it divides the time", cure="how long the winch runs, s"
+    )
 
 
 class Trapezoid(Record):
     """Accelerate, hold a top speed, brake: the acceleration jumps at four published instants."""
 
     law: Literal["trapezoid"]
-    start_length: float = quantity("length", **_SHORTEST)
-    end_length: float = quantity("length", **_SHORTEST)
-    top_speed: float = quantity("payout_speed", gt=0.0, reason="the direction follows from the lengths", cure="m/s")
-    acceleration: float = quantity("payout_acceleration", gt=0.0, reason="it divides the speed", cure="m/s2")
-    start: float = quantity("signal_time", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
+    start_length: float = quantity("winch_start_length", **_SHORTEST)
+    end_length: float = quantity("winch_end_length", **_SHORTEST)
+    top_speed: float = quantity("winch_top_speed", gt=0.0, reason="the direction follows from the lengths", cure="m/s")
+    acceleration: float = quantity("winch_acceleration", gt=0.0, reason="it divides the speed", cure="m/s2")
+    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
 
 
 class Cosine(Record):
     """``length = start_length + amplitude (1 - cos(frequency t))``: a winch that comes and goes."""
 
     law: Literal["cosine"]
-    start_length: float = quantity("length", **_SHORTEST)
-    amplitude: float = quantity("length", ge=-2e4, le=2e4)
+    start_length: float = quantity("winch_start_length", **_SHORTEST)
+    amplitude: float = quantity("winch_amplitude", ge=-2e4, le=2e4)
     frequency: float = quantity("winch_frequency", gt=0.0, le=1e3, reason="it must move", cure="or use constant")
 
 
