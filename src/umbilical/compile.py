@@ -76,13 +76,20 @@ def _compiled(function: Callable[..., Any], **options: bool) -> Any:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """A compiled function that other kernels take in as their own code, and that Python can call, too.
+    """A compiled function whose machine code is taken into every kernel that calls it.
 
     Compiled when first called, kept on disk, and without the GIL while it runs. No fast-math: results must
     not depend on the compiler's mood. Division by zero gives inf or NaN, which the engine looks for, instead
     of raising inside a loop. Without numba's reference counting (three times the cost of the arithmetic), so
-    a kernel that allocates does not compile. Taking in, rather than calling, spares both the passing of large
-    arguments and the compilation of every kernel on its own: one run compiles one function.
+    a kernel that allocates does not compile.
+    """
+    return _compiled(function, forceinline=True)
+
+
+def glue(function: Callable[..., Any]) -> Any:
+    """A kernel that only puts others in order: its source is taken into its callers before they are compiled.
+
+    Many large arguments then are neither passed nor compiled for once more on every floor.
     """
     return _compiled(function, inline="always")
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
 from umbilical.control.allocation.adaptive import Adaptation, adapt, adaptive_demand, initial_kappa, make_adaptation
 from umbilical.control.allocation.known import known_demand
 from umbilical.control.contract import (
@@ -189,7 +189,7 @@ def make_state(scenario: Scenario) -> CascadeState:
     return CascadeState(np.zeros(1, dtype=np.int64), np.zeros(5), kappa, np.zeros((n, 5)))
 
 
-@kernel
+@glue
 def start(settings: CascadeSettings, state: CascadeState, readings: Readings) -> None:
     """Observers at rest on the first sample, filters at zero."""
     outer, motors, seen = settings.outer, settings.motors, readings.boundary
@@ -203,7 +203,7 @@ def start(settings: CascadeSettings, state: CascadeState, readings: Readings) ->
         state.motors[i, UPSILON] = start_motor_disturbance(motors.observer_gain, scaled_current)
 
 
-@kernel
+@glue
 def update(settings: CascadeSettings, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """One update: the outer law on its own samples, the motor loops on every one."""
     if settings.outer.law != NONE and state.updates[0] % settings.outer_every == 0:
@@ -244,7 +244,7 @@ def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: De
     out[THRUST_COMMAND] = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, slope_rate, known, estimate)
 
 
-@kernel
+@glue
 def allocate(s: Motors, state: CascadeState, decision: Decision) -> None:
     """Demands on the motors from the commanded thrust."""
     thrust = decision.outer[THRUST_COMMAND]

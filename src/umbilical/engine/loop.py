@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import entry_kernel, kernel
+from umbilical.compile import entry_kernel, glue
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
 from umbilical.control.contract import THRUST_COMMAND, VOLTAGE, Command, Controller, Decision, Readings, to_measurement
@@ -36,44 +36,37 @@ class World(NamedTuple):
 
 
 class Record(NamedTuple):
-    """What is kept of a run, and which samples: every ``every``-th update is stored."""
+    """What is kept of a run.
+
+    Attributes:
+        log, tally: stored samples, and measures of all.
+        every: every so many updates one is stored; the last one always is.
+        fault_update: first update at or after the first fault.
+        last_update: the update at the end of the run.
+    """
 
     log: Log
     tally: Tally
     every: int
     fault_update: int
-    """First update at or after the first fault."""
+    last_update: int
 
 
-@kernel
+@glue
 def actuate(world: World) -> None:
     """An ideal thruster delivers the new command at once; motors take their time."""
     if world.plant.ideal:
         world.state.now[DELIVERED] = world.decision.outer[THRUST_COMMAND]
 
 
-@kernel
-def keep(world: World, record: Record, update: int, last: bool, kappa: np.ndarray) -> bool:
+@glue
+def keep(world: World, record: Record, update: int, kappa: np.ndarray) -> bool:
     """Take one control sample into the record; False if the model has ended."""
     good = measure(record.tally, world.state, world.decision, update >= record.fault_update)
-    if good and (update % record.every == 0 or last):
-        row = update // record.every if update % record.every == 0 else record.log.scalars.shape[0] - 1
+    if good and (update % record.every == 0 or update == record.last_update):
+        row = (update + record.every - 1) // record.every
         store(record.log, row, record.tally, world.state, world.decision, kappa)
     return good
-
-
-@kernel
-def update_world(
-    world: World, settings: CascadeSettings, memory: CascadeState, record: Record, noise: np.ndarray, row: int, update: int,
-    last: bool,
-) -> bool:  # fmt: skip
-    """One control instant of the built-in controller; False if the model has ended."""
-    sense(world.sensors, world.memory, noise, row, world.state, world.readings)
-    if update == 0:
-        cascade.start(settings, memory, world.readings)
-    cascade.update(settings, memory, world.readings, world.decision)
-    actuate(world)
-    return keep(world, record, update, last, memory.kappa)
 
 
 @entry_kernel
@@ -87,18 +80,27 @@ def run_steps(
     noise: np.ndarray,
     begin: int,
 ) -> int:
-    """Control periods ``begin`` onwards, one per entry of ``first``; returns the update that ended it, or -1."""
+    """Control periods ``begin`` onwards, period j having the steps ``first[j]`` to ``first[j + 1]``.
+
+    Returns the update at which the model ended, or :data:`FINISHED`.
+    """
     for j in range(first.size - 1):
-        for i in range(first[j], first[j + 1]):
-            if inputs.refresh[i]:
-                enter_step(world.plant, world.state, inputs, i)
-            if i == first[j] and not update_world(world, settings, memory, record, noise, j, begin + j, False):
-                return begin + j
-            advance(world.plant, world.state, inputs, i, world.decision.motors[VOLTAGE])
+        update = begin + j
+        if first[j] < first[j + 1] and inputs.refresh[first[j]]:
+            enter_step(world.plant, world.state, inputs, first[j])
+        sense(world.sensors, world.memory, noise, j, world.state, world.readings)
+        if update == 0:
+            cascade.start(settings, memory, world.readings)
+        cascade.update(settings, memory, world.readings, world.decision)
+        actuate(world)
+        good = keep(world, record, update, memory.kappa)
+        if not good:
+            return update
+        advance_period(world, inputs, first[j], first[j + 1])
     return FINISHED
 
 
-@kernel
+@glue
 def advance_period(world: World, inputs: Inputs, begin: int, end: int) -> None:
     """All plant steps of one control period, entered already at ``begin``."""
     for i in range(begin, end):
@@ -117,10 +119,6 @@ class BuiltIn:
     def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
         """As :func:`run_steps`."""
         return run_steps(self._world, self._settings, self._memory, self._record, inputs, first, noise, begin)
-
-    def finish(self, noise: np.ndarray, update: int) -> bool:
-        """The update at the end of the run; False if the model has ended."""
-        return update_world(self._world, self._settings, self._memory, self._record, noise, 0, update, True)
 
 
 class Python:
@@ -141,23 +139,22 @@ class Python:
         self._through_motors = False
 
     def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
-        """Control periods ``begin`` onwards; returns the update that ended it, or -1."""
+        """As :func:`run_steps`."""
         world = self._world
         for j in range(first.size - 1):
-            if inputs.refresh[first[j]]:
+            if first[j] < first[j + 1] and inputs.refresh[first[j]]:
                 enter_step(world.plant, world.state, inputs, first[j])
-            if not self._update(noise, j, begin + j, last=False):
+            sense(world.sensors, world.memory, noise, j, world.state, world.readings)
+            self._update(begin + j)
+            actuate(world)
+            if not keep(world, self._record, begin + j, self._memory.kappa):
                 return begin + j
             advance_period(world, inputs, first[j], first[j + 1])
         return FINISHED
 
-    def finish(self, noise: np.ndarray, update: int) -> bool:
-        """The update at the end of the run; False if the model has ended."""
-        return self._update(noise, 0, update, last=True)
-
-    def _update(self, noise: np.ndarray, row: int, update: int, *, last: bool) -> bool:
+    def _update(self, update: int) -> None:
+        """One control instant: the controller at its own period, the motor loops at theirs."""
         world = self._world
-        sense(world.sensors, world.memory, noise, row, world.state, world.readings)
         if update == 0:
             cascade.start(self._drive, self._memory, world.readings)
         if update % self._every == 0:
@@ -165,8 +162,6 @@ class Python:
         if self._through_motors:
             cascade.update_motors(self._drive.motors, self._memory, world.readings, world.decision)
         self._memory.updates[0] += 1
-        actuate(world)
-        return keep(world, self._record, update, last, self._memory.kappa)
 
     def _decide(self, update: int) -> None:
         """Ask the controller, and put its command where the kernels find it."""

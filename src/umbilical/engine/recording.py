@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
 from umbilical.control.contract import (
     BOUNDARY_ERROR,
     DEMAND,
@@ -27,6 +27,7 @@ from umbilical.plant.exogenous import VOLTAGE as VOLTAGE_DISTURBANCE
 from umbilical.plant.layout import probe, to_nodal
 from umbilical.plant.motors import CURRENT
 from umbilical.plant.motors import SPEED as ROTOR_SPEED
+from umbilical.plant.power import ALONG_TERMS, END_TERMS
 
 SCALARS = (
     "length", "payout_speed", "payout_acceleration", "vessel_displacement", "vessel_slope",
@@ -35,8 +36,8 @@ SCALARS = (
     "payload_force", "thrust", "disturbance",
 )  # fmt: skip
 WORKS = (
-    "work_thrust", "work_payload_force", "work_payload_damping", "work_cable_damping", "work_cable_load",
-    "work_vessel", "work_tension",
+    "work_thrust", "work_payload_force", "work_payload_damping", "work_vessel",
+    "work_cable_damping", "work_cable_load", "work_tension",
 )  # fmt: skip
 PER_MOTOR = (
     "motor_speed", "motor_current", "motor_voltage", "demand", "speed_reference", "motor_disturbance",
@@ -122,20 +123,20 @@ def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
             slope = abs(g[j, e]) * scale
             # Written so that a slope that is not a number is kept, too.
             slopes[e] = slopes[e] if slope <= slopes[e] else slope
-    good = True
+    steep = 0
     for e in range(n):
-        good = good and slopes[e] <= STEEPEST
-    return good
+        steep += 0 if slopes[e] <= STEEPEST else 1
+    return steep == 0
 
 
-@kernel
+@glue
 def note(tally: Tally, place: int, value: float) -> None:
     """Peak and sum of squares of one measure."""
     tally.measures[PEAK, place] = max(tally.measures[PEAK, place], abs(value))
     tally.measures[SQUARES, place] += value * value
 
 
-@kernel
+@glue
 def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bool) -> bool:
     """Take one control sample into the tally; False if the model has ended (non-finite, or too steep)."""
     y = state.fields[DISPLACEMENT]
@@ -160,7 +161,7 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
     return watch_slopes(state, tally.slopes) and finite
 
 
-@kernel
+@glue
 def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decision, kappa: np.ndarray) -> None:
     """Store one sample of everything."""
     store_scalars(log.scalars[row], state, decision)
@@ -193,5 +194,10 @@ def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> Non
     out[11], out[12] = outer[VELOCITY_ESTIMATE], outer[SLOPE_RATE_ESTIMATE]
     out[13], out[14], out[15] = outer[DISTURBANCE_ESTIMATE], now[FORCE], now[DELIVERED]
     out[16] = now[FORCE] + now[DELIVERED] - outer[THRUST_COMMAND]
-    for term in range(state.power.shape[1]):
-        out[17 + term] = state.power[SINCE_START, term]
+    for term in range(END_TERMS):
+        out[17 + term] = state.power_ends[SINCE_START, term]
+    for term in range(ALONG_TERMS):
+        work = 0.0
+        for e in range(n):
+            work += state.power_along[SINCE_START, term, e]
+        out[17 + END_TERMS + term] = work

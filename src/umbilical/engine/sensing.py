@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
 from umbilical.control.contract import LENGTH as READ_LENGTH
 from umbilical.control.contract import (
     MOTOR_CURRENT,
@@ -95,7 +95,7 @@ def true_slope_rate(state: PlantState) -> float:
     return 2.0 * n / state.now[LENGTH] * slope
 
 
-@kernel
+@glue
 def read_truth(state: PlantState, readings: Readings) -> None:
     """Perfect readings."""
     n = state.fields.shape[2] - 1
@@ -133,7 +133,7 @@ def spoil(s: Sensors, memory: SensorState, noise: np.ndarray, readings: Readings
     memory.count[0] += 1
 
 
-@kernel
+@glue
 def sense(
     s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings
 ) -> None:

@@ -38,13 +38,13 @@ from umbilical.engine.stepping import make_plant, make_plant_state
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import faults
 from umbilical.plant.cable import DISPLACEMENT
-from umbilical.plant.exogenous import published_jumps, sample
+from umbilical.plant.exogenous import Outside, published_jumps
 from umbilical.plant.layout import positions
 from umbilical.relations.formulas import motor_constants
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
 
-STEPS_AT_ONCE = 2000
+STEPS_AT_ONCE = 5000
 """Plant steps between two looks at the outside world, at progress and at Ctrl-C. No result depends on it."""
 
 
@@ -156,7 +156,11 @@ def _record(scenario: Scenario, clock: Clock) -> loop.Record:
     scales = np.array([motor_constants(m).f23 for m in scenario.motors])
     elements = scenario.grid.elements
     return loop.Record(
-        make_log(samples, len(scenario.motors), elements), make_tally(elements, scales), every, fault_update
+        make_log(samples, len(scenario.motors), elements),
+        make_tally(elements, scales),
+        every,
+        fault_update,
+        clock.periods,
     )
 
 
@@ -164,6 +168,7 @@ def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | N
     """The loop, stretch by stretch; also the seconds spent sampling the outside world."""
     clock, decider = setup.clock, setup.decider
     length = max(1, STEPS_AT_ONCE // clock.substeps)
+    outside = Outside(scenario)
     sampling = 0.0
     begin = 0
     try:
@@ -171,7 +176,7 @@ def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | N
             end = min(begin + length, clock.periods)
             before = perf_counter()
             part = stretch(clock, begin, end)
-            inputs = sample(scenario, part.steps)
+            inputs = outside.sample(part.steps)
             inputs.refresh[0] |= begin == 0
             sampling += perf_counter() - before
             stopped = decider.run(inputs, part.first, setup.dice.draw(end - begin), begin)
@@ -180,7 +185,8 @@ def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | N
             begin = end
             if progress:
                 progress(end / clock.periods)
-        if not decider.finish(setup.dice.draw(1), clock.periods):
+        # The update at the end: a period without steps.
+        if decider.run(inputs, np.zeros(2, dtype=np.int64), setup.dice.draw(1), clock.periods) != loop.FINISHED:
             return _diverged(setup, clock.periods), sampling
     except KeyboardInterrupt:
         updates = int(setup.record.tally.count[0])

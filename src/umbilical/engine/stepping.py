@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import entry_kernel, kernel
+from umbilical.compile import entry_kernel, glue
 from umbilical.plant.cable import (
     ACCELERATION as CABLE_ACCELERATION,
 )
@@ -45,13 +45,22 @@ from umbilical.plant.exogenous import (
 )
 from umbilical.plant.initial import initial_displacement
 from umbilical.plant.motors import advance_motor, applied_voltage, make_motor_state, make_motors, thrust
-from umbilical.plant.power import TENSION, TERMS, THRUST, powers, strain_integral
+from umbilical.plant.power import (
+    ALONG_TERMS,
+    END_TERMS,
+    TENSION,
+    THRUST,
+    add_power,
+    power_along,
+    power_at_ends,
+    strain_of_elements,
+)
 from umbilical.scenario.scenario import Scenario
 
 DELIVERED = 8
 """Place of the delivered thrust in PlantState.now; the places before it are the rows of Inputs.world."""
-AT_START, AT_END, SINCE_START = range(3)
-"""Rows of PlantState.power."""
+PRESENT, SINCE_START = range(2)
+"""Rows of PlantState.power_ends and power_along: power now, and its integral."""
 
 
 class Plant(NamedTuple):
@@ -71,7 +80,8 @@ class PlantState(NamedTuple):
         now: rows of ``Inputs.world`` at the present instant, then the delivered thrust, shape (9,).
         motors_now: rows of ``Inputs.motors`` at the present instant, shape (6, motors).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
-        power: terms of the power balance at start and end of a step, W, and their integrals, J, shape (3, 7).
+        power_ends: terms of the power balance at ROV and vessel, W, and their integrals, J, shape (2, 4).
+        power_along: likewise along the cable, element by element, shape (2, 3, n + 1).
         drive: voltage U + d2 and torque d1 of one motor over a step, shape (2, 3).
     """
 
@@ -80,7 +90,8 @@ class PlantState(NamedTuple):
     now: np.ndarray
     motors_now: np.ndarray
     loads: np.ndarray
-    power: np.ndarray
+    power_ends: np.ndarray
+    power_along: np.ndarray
     drive: np.ndarray
 
 
@@ -95,8 +106,9 @@ def make_plant_state(scenario: Scenario) -> PlantState:
     fields = make_fields(initial_displacement(scenario))
     now = np.zeros(9)
     now[VESSEL] = fields[DISPLACEMENT, 0, 0]
-    power, drive = np.zeros((3, TERMS)), np.zeros((2, 3))
-    return PlantState(fields, make_motor_state(n), now, np.zeros((6, n)), np.zeros(loads), power, drive)
+    ends, along = np.zeros((2, END_TERMS)), np.zeros((2, ALONG_TERMS, fields.shape[2]))
+    motors, motors_now = make_motor_state(n), np.zeros((6, n))
+    return PlantState(fields, motors, now, motors_now, np.zeros(loads), ends, along, np.zeros((2, 3)))
 
 
 @entry_kernel
@@ -111,38 +123,39 @@ def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
     refresh(plant, state, CABLE_ACCELERATION)
     if not plant.ideal:
         state.now[DELIVERED] = present_thrust(plant, state)
-    note_power(plant, state, AT_END)
+    note_power(plant, state)
 
 
-@kernel
+@glue
 def look_outside(state: PlantState, inputs: Inputs, i: int, column: int) -> None:
     """The outside world at start or end of step i. At a start the vessel is where the last step left it."""
     for row in range(DELIVERED):
         if row != VESSEL or column == END:
-            state.now[row] = inputs.world[i, column, row]
+            state.now[row] = inputs.world[row, column, i]
     for k in range(state.loads.size):
-        state.loads[k] = inputs.loads[i, column, k]
+        state.loads[k] = inputs.loads[k, column, i]
     for row in range(state.motors_now.shape[0]):
         for k in range(state.motors_now.shape[1]):
-            state.motors_now[row, k] = inputs.motors[i, column, row, k]
+            state.motors_now[row, k] = inputs.motors[row, k, column, i]
 
 
-@kernel
+@glue
 def present_thrust(plant: Plant, state: PlantState) -> float:
     """Thrust the motors deliver at the present instant, N."""
     return thrust(plant.motors, state.motors, state.motors_now[EFFECTIVENESS], state.motors_now[STUCK])
 
 
-@kernel
+@glue
 def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
     after = state.now[NET_GRAVITY]
     if after != before and before > 0.0:
-        strain = strain_integral(plant.cable, state.fields, state.now[LENGTH], after)
-        state.power[SINCE_START, TENSION] += 0.5 * strain * (1.0 - before / after)
+        strain = state.power_along[PRESENT, TENSION]
+        strain_of_elements(plant.cable, state.fields, strain, state.now[LENGTH], after)
+        add_power(state.power_along[SINCE_START, TENSION], strain, 0.5 * (1.0 - before / after))
 
 
-@kernel
+@glue
 def refresh(plant: Plant, state: PlantState, target: int) -> None:
     """Forces on the cable at the present instant, into the field ``target``."""
     now = state.now
@@ -151,42 +164,54 @@ def refresh(plant: Plant, state: PlantState, target: int) -> None:
     )
 
 
-@kernel
-def note_power(plant: Plant, state: PlantState, row: int) -> None:
+@glue
+def note_power(plant: Plant, state: PlantState) -> None:
     """Terms of the power balance at the present instant."""
-    now = state.now
-    powers(
-        plant.cable, state.fields, state.power[row], now[LENGTH], now[SPEED], now[NET_GRAVITY], now[JERK_RATIO],
-        now[VESSEL_VELOCITY], now[DELIVERED], now[FORCE], state.loads,
+    now, cable = state.now, plant.cable
+    power_at_ends(
+        cable, state.fields, state.power_ends[PRESENT], now[LENGTH], now[SPEED], now[NET_GRAVITY],
+        now[VESSEL_VELOCITY], now[DELIVERED], now[FORCE],
     )  # fmt: skip
+    along = state.power_along[PRESENT]
+    power_along(cable, state.fields, along, now[LENGTH], now[NET_GRAVITY], now[JERK_RATIO], state.loads)
 
 
-@kernel
+@glue
+def add_work(state: PlantState, time: float) -> None:
+    """Let the present power work for ``time``: half a step after its start, half a step before its end."""
+    add_power(state.power_ends[SINCE_START], state.power_ends[PRESENT], time)
+    for term in range(ALONG_TERMS):
+        add_power(state.power_along[SINCE_START, term], state.power_along[PRESENT, term], time)
+
+
+@glue
 def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
     """All motors over step i under the held voltages, shape (motors,)."""
     drive = state.drive
     for k in range(voltage.size):
         for c in range(3):
-            share, stuck = inputs.motors[i, c, DRIVE_EFFECTIVENESS, k], inputs.motors[i, c, DRIVE_STUCK, k]
+            share, stuck = inputs.motors[DRIVE_EFFECTIVENESS, k, c, i], inputs.motors[DRIVE_STUCK, k, c, i]
             reached = applied_voltage(plant.motors, k, voltage[k], share, stuck)
-            drive[0, c] = reached + inputs.motors[i, c, VOLTAGE, k]
-            drive[1, c] = inputs.motors[i, c, TORQUE, k]
+            drive[0, c] = reached + inputs.motors[VOLTAGE, k, c, i]
+            drive[1, c] = inputs.motors[TORQUE, k, c, i]
         advance_motor(plant.motors, state.motors, k, inputs.dt[i], drive[0], drive[1])
 
 
-@kernel
+@glue
 def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
     """Step i, from :func:`enter_step` on: velocity Verlet for cable and ROV, Runge-Kutta for the motors."""
     fields, now = state.fields, state.now
     elements = fields.shape[2] - 1
     dt = inputs.dt[i]
-    start_power(state)
+    # A new command may have changed the thrust of an ideal thruster since the last end.
+    state.power_ends[PRESENT, THRUST] = fields[VELOCITY, 0, elements] * now[DELIVERED]
+    add_work(state, 0.5 * dt)
     kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
-    length, speed = inputs.world[i, MIDDLE, LENGTH], inputs.world[i, MIDDLE, SPEED]
+    length, speed = inputs.world[LENGTH, MIDDLE, i], inputs.world[SPEED, MIDDLE, i]
     top_slope = 2.0 * elements / length * fields[SLOPE, 0, 0]
-    fields[VELOCITY, 0, 0] = inputs.world[i, MIDDLE, VESSEL_VELOCITY] + speed * top_slope
+    fields[VELOCITY, 0, 0] = inputs.world[VESSEL_VELOCITY, MIDDLE, i] + speed * top_slope
     drift(plant.cable, fields, dt, length, speed)
-    fields[DISPLACEMENT, 0, 0] = inputs.world[i, END, VESSEL]
+    fields[DISPLACEMENT, 0, 0] = inputs.world[VESSEL, END, i]
     look_outside(state, inputs, i, END)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, voltage)
@@ -195,14 +220,5 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
     refresh(plant, state, FRESH)
     correct(fields, 0.5 * dt)
-    note_power(plant, state, AT_END)
-    for term in range(TERMS):
-        state.power[SINCE_START, term] += 0.5 * dt * (state.power[AT_START, term] + state.power[AT_END, term])
-
-
-@kernel
-def start_power(state: PlantState) -> None:
-    """Power at the start of a step: that of the last end, but for what a new command changes."""
-    for term in range(TERMS):
-        state.power[AT_START, term] = state.power[AT_END, term]
-    state.power[AT_START, THRUST] = state.fields[VELOCITY, 0, state.fields.shape[2] - 1] * state.now[DELIVERED]
+    note_power(plant, state)
+    add_work(state, 0.5 * dt)

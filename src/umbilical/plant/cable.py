@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
 from umbilical.plant.elements import DERIVATIVE, WEIGHTS
 from umbilical.plant.layout import positions, to_field
 from umbilical.relations.formulas import tension
@@ -166,7 +166,7 @@ def add_loads(cable: Cable, out: np.ndarray, length: float, loads: np.ndarray) -
     out[0, 0] = 0.0
 
 
-@kernel
+@glue
 def evaluate(
     cable: Cable,
     fields: np.ndarray,
@@ -202,16 +202,21 @@ def kick(cable: Cable, fields: np.ndarray, dt: float, length: float, tip_force: 
     w[0, n] += dt * tip_force / tip_mass
 
 
-@kernel
+@glue
 def drift(cable: Cable, fields: np.ndarray, dt: float, length: float, speed: float) -> None:
     """Y += dt (W - (v A/l) Y_sigma); the vessel's node is left to its boundary condition."""
-    n = fields.shape[2] - 1
+    if speed == 0.0:
+        drift_only(fields, dt)
+    else:
+        drift_and_transport(cable, fields, dt, dt * speed / length * 2.0 * (fields.shape[2] - 1))
+
+
+@kernel
+def drift_only(fields: np.ndarray, dt: float) -> None:
+    """Y += dt W: the winch stands still."""
     y, w = fields[DISPLACEMENT], fields[VELOCITY]
-    if speed != 0.0:
-        drift_and_transport(cable, fields, dt, dt * speed / length * 2.0 * n)
-        return
     for row in range(4):
-        for e in range(n + 1):
+        for e in range(y.shape[1]):
             y[row, e] += dt * w[row, e]
 
 

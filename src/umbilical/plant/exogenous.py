@@ -36,14 +36,14 @@ TORQUE, VOLTAGE, EFFECTIVENESS, STUCK, DRIVE_EFFECTIVENESS, DRIVE_STUCK = range(
 
 
 class Inputs(NamedTuple):
-    """What acts from outside; the first dimension is the step, the second its start, middle and end.
+    """What acts from outside: the last dimension is the step, the one before its start, middle and end.
 
     Attributes:
         dt: length of the step, s, shape (steps,).
         refresh: whether something jumped at its start, so that forces must be evaluated anew.
-        world: winch l, v, a; g - a; a'/(g - a); vessel e, e'; force on the ROV d: shape (steps, 3, 8).
-        motors: d1 and d2; effectiveness and stuck value of the thrust, then of the drive: (steps, 3, 6, motors).
-        loads: signals of the loads along the cable, N/m, shape (steps, 3, loads).
+        world: winch l, v, a; g - a; a'/(g - a); vessel e, e'; force on the ROV d: shape (8, 3, steps).
+        motors: d1 and d2; effectiveness and stuck value of the thrust, then of the drive: (6, motors, 3, steps).
+        loads: signals of the loads along the cable, N/m, shape (loads, 3, steps).
     """
 
     dt: Array
@@ -89,63 +89,77 @@ def profiles(scenario: Scenario) -> Array:
     return np.array(rows) if rows else np.zeros((0, 4 * scenario.grid.elements + 1))
 
 
-def sample(scenario: Scenario, steps: Steps) -> Inputs:
-    """All inputs at the given steps."""
-    count = steps.start.size
-    environment = scenario.environment
-    world = np.zeros((count, 3, 8))
-    motion = _at_all(lambda t, side: winch.evaluate(scenario.winch, t, side), steps)
-    for row, values in zip((LENGTH, SPEED, ACCELERATION), motion, strict=False):
-        world[:, :, row] = values
-    world[:, :, NET_GRAVITY] = environment.gravity - motion[2]
-    world[:, :, JERK_RATIO] = motion[3] / world[:, :, NET_GRAVITY]
-    if environment.vessel_motion:
-        vessel = _at_all(lambda t, side: signals.vessel(environment, t, side), steps)
-        world[:, :, VESSEL], world[:, :, VESSEL_VELOCITY] = vessel
-    if environment.payload_force:
-        world[:, :, FORCE] = _signal(environment.payload_force, steps)
-    loads = np.zeros((count, 3, len(environment.cable_load)))
-    for k, load in enumerate(environment.cable_load):
-        loads[:, :, k] = _signal(load.signal, steps)
-    refresh = np.zeros(count, dtype=np.bool_)
-    refresh[np.isin(steps.start, steps.jumps)] = True
-    return Inputs(steps.end - steps.start, refresh, world, _motors(scenario, steps), loads)
+class Outside:
+    """Samples the outside world of a scenario, stretch by stretch, into the same arrays."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._scenario = scenario
+        self._inputs = _empty(scenario, 0)
+
+    def sample(self, steps: Steps) -> Inputs:
+        """All inputs at the given steps. The arrays are used again by the next call."""
+        count = steps.start.size
+        if self._inputs.dt.size != count:
+            self._inputs = _empty(self._scenario, count)
+        inputs, environment = self._inputs, self._scenario.environment
+        np.subtract(steps.end, steps.start, out=inputs.dt)
+        inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
+        self._sample_winch(steps, inputs.world)
+        if environment.vessel_motion:
+            motion = inputs.world[VESSEL : VESSEL_VELOCITY + 1]
+            _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps)
+        _fill_signal(inputs.world[FORCE], environment.payload_force, steps)
+        for row, load in zip(inputs.loads, environment.cable_load, strict=True):
+            _fill_signal(row, load.signal, steps)
+        self._sample_motors(steps, inputs.motors)
+        return inputs
+
+    def _sample_winch(self, steps: Steps, world: Array) -> None:
+        law, gravity = self._scenario.winch, self._scenario.environment.gravity
+
+        def motion(t: Array, side: signals.Side) -> Sequence[Array]:
+            length, speed, acceleration, jerk = winch.evaluate(law, t, side)
+            net_gravity = gravity - acceleration
+            return length, speed, acceleration, net_gravity, jerk / net_gravity
+
+        _fill(world[: JERK_RATIO + 1], motion, steps)
+
+    def _sample_motors(self, steps: Steps, out: Array) -> None:
+        for k, motor in enumerate(self._scenario.motors):
+            _fill_signal(out[TORQUE, k], motor.torque_disturbance, steps)
+            _fill_signal(out[VOLTAGE, k], motor.voltage_disturbance, steps)
+        for number in sorted({fault.motor for fault in self._scenario.faults}):
+            of_motor = out[:, number - 1]
+            self._sample_faults(number, "thrust", steps, of_motor[EFFECTIVENESS : STUCK + 1])
+            self._sample_faults(number, "voltage", steps, of_motor[DRIVE_EFFECTIVENESS : DRIVE_STUCK + 1])
+
+    def _sample_faults(self, number: int, target: faults.Target, steps: Steps, out: Array) -> None:
+        timeline = self._scenario.faults
+        _fill(out, lambda t, side: faults.effect(timeline, number, target, t, side), steps)
 
 
-def _at_all(function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps) -> list[Array]:
-    """Functions of time at start, middle and end of every step, each of shape (steps, 3)."""
-    middle = function(0.5 * (steps.start + steps.end), "right")
+def _empty(scenario: Scenario, steps: int) -> Inputs:
+    """Nothing acts, and every motor is healthy."""
+    motors = np.zeros((6, len(scenario.motors), 3, steps))
+    motors[EFFECTIVENESS] = motors[DRIVE_EFFECTIVENESS] = 1.0
+    loads = np.zeros((len(scenario.environment.cable_load), 3, steps))
+    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), np.zeros((8, 3, steps)), motors, loads)
+
+
+def _fill_signal(row: Array, signal: signals.Signal, steps: Steps) -> None:
+    """A signal into ``row``, shape (3, steps); the rows of absent signals stay zero."""
+    if signal:
+        _fill(row[None], lambda t, side: (signals.evaluate(signal, t, side),), steps)
+
+
+def _fill(rows: Array, function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps) -> None:
+    """Functions of time into ``rows``, shape (functions, 3, steps)."""
+    for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
+        row[MIDDLE] = values
     if steps.jumps.size:
-        start, end = function(steps.start, "right"), function(steps.end, "left")
+        starts, ends = function(steps.start, "right"), function(steps.end, "left")
     else:  # nothing jumps: each knot serves as the end of one step and the start of the next
         knots = function(np.append(steps.start, steps.end[-1]), "right")
-        start, end = [k[:-1] for k in knots], [k[1:] for k in knots]
-    out = [np.empty((steps.start.size, 3)) for _ in middle]
-    for values, *columns in zip(out, start, middle, end, strict=True):
-        for place, column in enumerate(columns):
-            values[:, place] = column
-    return out
-
-
-def _signal(signal: signals.Signal, steps: Steps) -> Array:
-    """A signal at start, middle and end of every step, shape (steps, 3)."""
-    return _at_all(lambda t, side: (signals.evaluate(signal, t, side),), steps)[0]
-
-
-def _motors(scenario: Scenario, steps: Steps) -> Array:
-    out = np.zeros((steps.start.size, 3, 6, len(scenario.motors)))
-    out[:, :, EFFECTIVENESS] = out[:, :, DRIVE_EFFECTIVENESS] = 1.0
-    for k, motor in enumerate(scenario.motors):
-        for row, signal in ((TORQUE, motor.torque_disturbance), (VOLTAGE, motor.voltage_disturbance)):
-            if signal:
-                out[:, :, row, k] = _signal(signal, steps)
-    for number in sorted({fault.motor for fault in scenario.faults}):
-        _add_faults(scenario, number, steps, out[:, :, :, number - 1])
-    return out
-
-
-def _add_faults(scenario: Scenario, number: int, steps: Steps, out: Array) -> None:
-    """Faults of one motor into ``out``, shape (steps, 3, 6)."""
-    for target, share, stuck in (("thrust", EFFECTIVENESS, STUCK), ("voltage", DRIVE_EFFECTIVENESS, DRIVE_STUCK)):
-        effects = _at_all(lambda t, side, of=target: faults.effect(scenario.faults, number, of, t, side), steps)
-        out[:, :, share], out[:, :, stuck] = effects
+        starts, ends = [k[:-1] for k in knots], [k[1:] for k in knots]
+    for row, start, end in zip(rows, starts, ends, strict=True):
+        row[START], row[END] = start, end

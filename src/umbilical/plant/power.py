@@ -17,75 +17,97 @@ from umbilical.compile import kernel
 from umbilical.plant.cable import SCRATCH, SLOPE, VELOCITY, W0, W1, W2, Cable
 from umbilical.relations.formulas import tension
 
-THRUST, PAYLOAD_FORCE, PAYLOAD_DAMPING, CABLE_DAMPING, CABLE_LOAD, VESSEL, TENSION = range(7)
-TERMS = 7
+# Terms that act at the ends of the cable; then those along it, which are kept element by element.
+THRUST, PAYLOAD_FORCE, PAYLOAD_DAMPING, VESSEL = range(4)
+CABLE_DAMPING, CABLE_LOAD, TENSION = range(3)
+END_TERMS, ALONG_TERMS = 4, 3
 
 
 @kernel
-def weighted_sum(rows: np.ndarray) -> float:
-    """Quadrature of values at the five points of each element, over the reference elements."""
-    n = rows.shape[1] - 1
-    total = 0.0
-    for e in range(n):
-        total += W0 * (rows[0, e] + rows[4, e]) + W1 * (rows[1, e] + rows[3, e]) + W2 * rows[2, e]
-    return total
-
-
-@kernel
-def strain_integral(cable: Cable, fields: np.ndarray, length: float, net_gravity: float) -> float:
-    """int T p^2 dx, J (twice the strain energy)."""
+def strain_of_elements(cable: Cable, fields: np.ndarray, out: np.ndarray, length: float, net_gravity: float) -> None:
+    """int T p^2 dx of every element, J (twice its strain energy), into ``out``, shape (n + 1,)."""
     n = fields.shape[2] - 1
-    g, out, above = fields[SLOPE], fields[SCRATCH], cable.above
+    g, dense, above = fields[SLOPE], fields[SCRATCH], cable.above
     foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density)
     rise = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) - foot
     for j in range(5):
         for e in range(n):
-            out[j, e] = (foot + rise * above[j, e]) * g[j, e] * g[j, e]
-    return weighted_sum(out) * 2.0 * n / length
+            dense[j, e] = (foot + rise * above[j, e]) * g[j, e] * g[j, e]
+    scale = 2.0 * n / length
+    for e in range(n):
+        ends, inner = dense[0, e] + dense[4, e], dense[1, e] + dense[3, e]
+        out[e] = scale * (W0 * ends + W1 * inner + W2 * dense[2, e])
 
 
 @kernel
-def square_integral(fields: np.ndarray, length: float) -> float:
-    """int W^2 dx, m3/s2."""
+def squares_of_elements(fields: np.ndarray, out: np.ndarray, length: float) -> None:
+    """int W^2 dx of every element, m3/s2, into ``out``, shape (n + 1,)."""
     n = fields.shape[2] - 1
     w = fields[VELOCITY]
-    total = 0.0
+    scale = length / (2.0 * n)
     for e in range(n):
         ends = w[0, e] * w[0, e] + w[0, e + 1] * w[0, e + 1]
-        total += W0 * ends + W1 * (w[1, e] * w[1, e] + w[3, e] * w[3, e]) + W2 * (w[2, e] * w[2, e])
-    return total * length / (2.0 * n)
+        inner = w[1, e] * w[1, e] + w[3, e] * w[3, e]
+        out[e] = scale * (W0 * ends + W1 * inner + W2 * (w[2, e] * w[2, e]))
 
 
 @kernel
-def load_power(cable: Cable, fields: np.ndarray, length: float, loads: np.ndarray) -> float:
-    """int f W dx, W."""
+def load_on_elements(cable: Cable, fields: np.ndarray, out: np.ndarray, length: float, loads: np.ndarray) -> None:
+    """int f W dx of every element, W, into ``out``, shape (n + 1,)."""
     n = fields.shape[2] - 1
     w = fields[VELOCITY]
-    total = 0.0
+    scale = length / (2.0 * n)
+    for e in range(n):
+        out[e] = 0.0
     for k in range(loads.size):
         p = cable.profiles[k]
         for e in range(n):
             ends = p[0, e] * w[0, e] + p[0, e + 1] * w[0, e + 1]
             inner = p[1, e] * w[1, e] + p[3, e] * w[3, e]
-            total += loads[k] * (W0 * ends + W1 * inner + W2 * (p[2, e] * w[2, e]))
-    return total * length / (2.0 * n)
+            out[e] += scale * loads[k] * (W0 * ends + W1 * inner + W2 * (p[2, e] * w[2, e]))
 
 
 @kernel
-def powers(
+def scale_row(row: np.ndarray, factor: float) -> None:
+    """row *= factor."""
+    for e in range(row.size):
+        row[e] *= factor
+
+
+@kernel
+def power_along(
+    cable: Cable,
+    fields: np.ndarray,
+    out: np.ndarray,
+    length: float,
+    net_gravity: float,
+    jerk_ratio: float,
+    loads: np.ndarray,
+) -> None:
+    """Terms along the cable at the present state, element by element, into ``out``, shape (3, n + 1), W."""
+    if cable.damping != 0.0:
+        squares_of_elements(fields, out[CABLE_DAMPING], length)
+        scale_row(out[CABLE_DAMPING], -cable.damping)
+    if loads.size > 0:
+        load_on_elements(cable, fields, out[CABLE_LOAD], length, loads)
+    if jerk_ratio != 0.0:
+        strain_of_elements(cable, fields, out[TENSION], length, net_gravity)
+    scale_row(out[TENSION], -0.5 * jerk_ratio)
+
+
+@kernel
+def power_at_ends(
     cable: Cable,
     fields: np.ndarray,
     out: np.ndarray,
     length: float,
     speed: float,
     net_gravity: float,
-    jerk_ratio: float,
     vessel_velocity: float,
     thrust: float,
     payload_force: float,
-    loads: np.ndarray,
 ) -> None:
-    """Every term of the balance at the present state into ``out``, shape (7,), W."""
+    """Terms at ROV and vessel at the present state into ``out``, shape (4,), W."""
     n = fields.shape[2] - 1
     tip = fields[VELOCITY, 0, n]
     top_tension = tension(length, net_gravity, cable.payload_mass, cable.hanging_density)
@@ -94,12 +116,12 @@ def powers(
     out[THRUST] = tip * thrust
     out[PAYLOAD_FORCE] = tip * payload_force
     out[PAYLOAD_DAMPING] = -cable.payload_damping * tip * tip
-    out[CABLE_DAMPING] = -cable.damping * square_integral(fields, length) if cable.damping != 0.0 else 0.0
-    out[CABLE_LOAD] = load_power(cable, fields, length, loads) if loads.size > 0 else 0.0
-    out[VESSEL] = (
-        -top_tension * top_slope * (vessel_velocity + 0.5 * speed * top_slope)
-        + 0.5 * cable.line_density * speed * top_velocity * top_velocity
-    )
-    out[TENSION] = (
-        -0.5 * jerk_ratio * strain_integral(cable, fields, length, net_gravity) if jerk_ratio != 0.0 else 0.0
-    )
+    pull = -top_tension * top_slope * (vessel_velocity + 0.5 * speed * top_slope)
+    out[VESSEL] = pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity
+
+
+@kernel
+def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
+    """work += power * time, along a row."""
+    for k in range(work.size):
+        work[k] += time * power[k]
