@@ -40,7 +40,6 @@ PARAMETERS: dict[str, Quantity] = {
     # winch
     "length":              Quantity("m", "l", "cable length paid out", "Table 1"),
     "payout_speed":        Quantity("m/s", "v", "winch speed, positive paying out", "Table 1"),
-    "payout_acceleration": Quantity("m/s2", "a", "winch acceleration", "Table 1"),
     "winch_start":         Quantity("s", "", "instant the winch starts"),
     "winch_duration":      Quantity("s", "", "how long the winch runs"),
     "winch_start_length":  Quantity("m", "l(0)", "cable length at the start of the run"),
@@ -162,7 +161,7 @@ CHANNELS: dict[str, Quantity] = {
     "work_cable_load":         Quantity("J", "", "work of the load along the cable"),
     "work_vessel":             Quantity("J", "", "energy that came through the vessel end (payout and vessel motion)"),
     "work_tension":            Quantity("J", "", "work of the changing tension (winch jerk)"),
-    "energy_residual":         Quantity("J", "", "energy minus its start and all work: zero in exact arithmetic"),
+    "energy_residual":         Quantity("J", "", "energy minus its start and all work: what the discretisation leaves open"),
 }
 
 METRICS: dict[str, Quantity] = {
@@ -183,7 +182,7 @@ METRICS: dict[str, Quantity] = {
     "motor_voltage_peak":      Quantity("V", "", "largest |motor voltage|, over all motors"),
     "motor_voltage_rms":       Quantity("V", "", "root mean square of the motor voltages"),
     "motor_current_peak":      Quantity("A", "", "largest |motor current|, over all motors"),
-    "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of energy and gross work"),
+    "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of largest energy and gross work"),
 }
 # fmt: on
 

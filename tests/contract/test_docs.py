@@ -1,0 +1,126 @@
+"""The documentation is current, points at things that exist, and its examples run."""
+
+from __future__ import annotations
+
+import re
+import runpy
+import tomllib
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import umbilical
+from umbilical.admission.examine import admit_data
+from umbilical.admission.load import preset_text
+from umbilical.quantities import CHANNELS, METRICS, PARAMETERS
+from umbilical.scenario.document import extend
+
+ROOT = Path(__file__).parents[2]
+DOCS = sorted((ROOT / "docs").glob("*.md"))
+SOURCE = ROOT / "src" / "umbilical"
+WRITER = runpy.run_path(str(ROOT / "tools" / "make_docs.py"))
+
+each_page = pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)
+
+
+def blocks(page: Path, language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+
+
+def anchors(page: Path) -> set[str]:
+    """Anchors of a page's headings, as GitHub makes them."""
+    titles = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def test_generated_pages_are_current() -> None:
+    """If this fails: .venv/bin/python tools/make_docs.py"""
+    assert WRITER["stale"]() == []
+
+
+def test_a_page_that_is_not_current_is_noticed(tmp_path: Path) -> None:
+    for name, make in WRITER["PAGES"].items():
+        (tmp_path / name).write_text(make() + " ", encoding="utf-8")
+    stale = WRITER["stale"]
+    stale.__globals__["DOCS"] = tmp_path
+    try:
+        assert stale() == list(WRITER["PAGES"])
+    finally:
+        stale.__globals__["DOCS"] = ROOT / "docs"
+
+
+@each_page
+def test_links_lead_somewhere(page: Path) -> None:
+    lost = []
+    for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text(encoding="utf-8")):
+        if link.startswith("https://"):
+            continue
+        name, _, anchor = link.partition("#")
+        target = (page.parent / name).resolve() if name else page
+        if not target.exists() or (anchor and anchor not in anchors(target)):
+            lost.append(link)
+    assert lost == []
+
+
+@each_page
+def test_files_named_are_there(page: Path) -> None:
+    """`plant/cable.py` stands for src/umbilical/plant/cable.py, a longer path for itself."""
+    named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|[\w/.]+\.(?:py|toml|md|json))`", page.read_text(encoding="utf-8")))
+    users = {"my.toml", "my_law.py"}
+    assert sorted(n for n in named - users if not any((root / n).exists() for root in (ROOT, SOURCE))) == []
+
+
+@each_page
+def test_functions_named_with_their_file_are_in_it(page: Path) -> None:
+    """`plant/cable.py: evaluate, drift` names functions, classes or constants of that file."""
+    missing = []
+    for name, things in re.findall(r"`([\w/]+\.py): ([\w, ]+)`", page.read_text(encoding="utf-8")):
+        text = (SOURCE / name).read_text(encoding="utf-8")
+        missing += [
+            f"{name}: {t}" for t in things.split(", ") if not re.search(rf"^(def|class) {t}\b|^{t}\b", text, re.M)
+        ]
+    assert missing == []
+
+
+@each_page
+def test_python_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """All examples of a page, one after the other, in an empty folder that holds its TOML examples."""
+    monkeypatch.chdir(tmp_path)
+    for text in blocks(page, "toml"):
+        if name := re.match(r"# (\w+\.toml)", text):
+            (tmp_path / name[1]).write_text(text, encoding="utf-8")
+    names: dict[str, object] = {"__name__": "example"}
+    for text in blocks(page, "python"):
+        exec(compile(text, page.name, "exec"), names)
+
+
+@pytest.mark.parametrize(
+    ("page", "text"),
+    [(page.name, text) for page in DOCS for text in blocks(page, "toml")],
+)
+def test_toml_examples_are_scenarios(page: str, text: str) -> None:
+    """An example that does not say what it extends is a piece of one that extends the paper's."""
+    data = {"extends": "paper", **tomllib.loads(text)}
+    base = tomllib.loads(preset_text(str(data.pop("extends"))))
+    while "extends" in base:
+        base = extend(tomllib.loads(preset_text(str(base.pop("extends")))), base)
+    admit_data(extend(base, data), page)
+
+
+@pytest.mark.parametrize("table", [PARAMETERS, CHANNELS, METRICS], ids=["parameters", "channels", "metrics"])
+def test_every_word_means_one_thing(table: dict[str, umbilical.quantities.Quantity]) -> None:
+    assert [m for m, count in Counter(q.meaning for q in table.values()).items() if count > 1] == []
+
+
+def test_every_parameter_stands_at_a_key() -> None:
+    """The one that does not is a dimension of the results."""
+    places = WRITER["keys_by_meaning"]()
+    assert [name for name, q in PARAMETERS.items() if q.meaning not in places] == ["sigma"]
+
+
+def test_every_channel_and_metric_is_in_a_run() -> None:
+    run = umbilical.simulate(umbilical.load("paper", {"duration": 0.05}))
+    held = {str(name) for name in run.data.data_vars if not str(name).startswith("metric_")}
+    assert held == set(CHANNELS)
+    assert set(run.metrics) == set(METRICS)
