@@ -1,0 +1,121 @@
+"""The commands under one name, and the one place where errors become texts and exit codes."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Sequence
+from typing import Annotated
+
+import typer
+
+from umbilical import __version__
+from umbilical.cli import benching, doctoring, drawing, listing, reading, running
+from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
+from umbilical.errors import UmbilicalError
+
+# typer brings its own copy of click and exports only this child of click's UsageError.
+_UsageError: type[Exception] = typer.BadParameter.__mro__[1]
+
+_CODES = "\n".join(f"  {code:<4} {meaning}" for code, meaning in EXIT_CODES.items())
+
+app = typer.Typer(
+    name="umbilical",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    epilog=f"\b\nexit codes\n{_CODES}",
+)
+
+for command in (
+    running.run,
+    reading.show,
+    reading.compare,
+    reading.export,
+    drawing.plot,
+    listing.presets,
+    listing.schema,
+    doctoring.doctor,
+    benching.bench,
+):
+    app.command()(command)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        say(f"umbilical {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def umbilical(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Its version.")] = False,
+    debug: Annotated[bool, typer.Option("--debug", help="Tracebacks of errors; may stand anywhere.")] = False,
+) -> None:
+    """Simulate the vibration control of a vessel - umbilical cable - ROV system.
+
+    \b
+    examples
+      umbilical run paper --out paper.nc --plot paper.png
+      umbilical run paper --set winch.end_length=480 --json
+      umbilical presets --copy paper my.toml
+      umbilical show my.toml
+      umbilical compare paper.nc other.nc
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line.
+
+    Args:
+        arguments: what stands behind ``umbilical``; those of this process if left out.
+
+    Returns:
+        The exit code, see :data:`umbilical.cli.speech.EXIT_CODES`.
+    """
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    debug = "--debug" in given
+    try:
+        return app([word for word in given if word != "--debug"], prog_name="umbilical", standalone_mode=False) or 0
+    except (Exception, KeyboardInterrupt) as error:
+        if debug:
+            traceback.print_exception(error)
+        return _explain(error, as_json="--json" in given)
+
+
+def _explain(error: BaseException, *, as_json: bool) -> int:
+    """One text on stderr, one object on stdout if that was wanted; returns the exit code."""
+    code, text = _verdict(error)
+    if as_json:
+        say_json(refusal(error, text, code))
+    tell(text)
+    return code
+
+
+def _verdict(error: BaseException) -> tuple[int, str]:
+    """Exit code and text of an error."""
+    match error:
+        case UmbilicalError():
+            return error.exit_code, f"umbilical: {error}"
+        case _UsageError():
+            return 2, _usage(error)
+        case KeyboardInterrupt() | typer.Abort():
+            return 130, "umbilical: interrupted"
+        case BrokenPipeError():
+            return 4, "umbilical: whoever read the output has gone"
+    return 1, (
+        f"umbilical: {type(error).__name__}: {error}\n"
+        "This is a bug of Umbilical, not of your input. Please report it with the command, the scenario and the\n"
+        "traceback, which the same command shows with --debug."
+    )
+
+
+def _usage(error: Exception) -> str:
+    """A mistyped command line: what is wrong with it, and where to read how it goes."""
+    context = getattr(error, "ctx", None)
+    if type(error).__name__ == "NoArgsIsHelpError" and context:
+        return context.get_help()
+    place = context.command_path if context else "umbilical"
+    return f"umbilical: {getattr(error, 'format_message', error.__str__)()}\nTry '{place} --help'."

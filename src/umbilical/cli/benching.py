@@ -1,0 +1,38 @@
+"""``umbilical bench``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from typer import Option
+
+from umbilical.cli.speech import say, say_json, table
+
+
+def bench(
+    repeat: Annotated[int, Option("--repeat", min=1, max=1000, help="Runs per row; the median counts.")] = 15,
+    cold: Annotated[bool, Option("--cold", help="Also compile everything anew, with an empty cache.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+) -> None:
+    """Measure how long the paper's 50 s take here: in the compiled loop and its parts, in the Python loop, in scipy.
+
+    \b
+    examples
+      umbilical bench
+      umbilical bench --repeat 51 --cold --json
+    """
+    from umbilical.bench import measure_all
+    from umbilical.cli.progress import announce_compilation, bar
+
+    announce_compilation()
+    with bar("measuring") as advance:
+        found = measure_all(repeat, cold=cold, progress=advance)
+    if as_json:
+        say_json(found.document())
+    else:
+        rows = [("", "s", "x real time", ""), *((r.name, f"{r.seconds:.4g}", _times(r.speed), r.note) for r in found.rows)]
+        say(f"{found.machine}\n\n{table(rows, right=(1, 2))}")
+
+
+def _times(speed: float | None) -> str:
+    return "" if speed is None else f"{speed:.4g}"

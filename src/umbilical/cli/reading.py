@@ -1,0 +1,118 @@
+"""``umbilical show``, ``compare`` and ``export``: what is read from scenarios and results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from typer import Argument, Option
+
+from umbilical.cli.speech import run_document, say, say_json, table
+
+if TYPE_CHECKING:
+    from umbilical.run import Run
+
+_ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "version_numba", "version_python")
+
+
+def show(
+    file: Annotated[str, Argument(help="A .nc result, a .toml scenario, or a preset's name.")],
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+) -> None:
+    """What a result or a scenario says: a result's ending and metrics, a scenario's values and what is assumed.
+
+    \b
+    examples
+      umbilical show paper
+      umbilical show paper.nc
+    """
+    if Path(file).suffix == ".nc":
+        _show_run(file, as_json)
+    else:
+        _show_scenario(file, as_json)
+
+
+def _show_run(file: str, as_json: bool) -> None:
+    from umbilical.run import open_run
+
+    run = open_run(file)
+    if as_json:
+        say_json(run_document(run, {"result": file}))
+        return
+    sizes = ", ".join(f"{name} {size}" for name, size in run.data.sizes.items())
+    origin = table([(name, str(run.data.attrs[name])) for name in _ORIGIN])
+    say(f"{run.summary()}\n\nholds: {sizes}\n{origin}")
+
+
+def _show_scenario(source: str, as_json: bool) -> None:
+    from umbilical.admission import admit, load
+    from umbilical.cli.inventory import inventory
+
+    scenario = load(source)
+    notices = [str(notice) for notice in admit(scenario)]
+    if as_json:
+        say_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, "notices": notices})
+        return
+    entries = [(e.key, e.value, e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)]
+    parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, table(entries)]
+    if scenario.assumed:
+        parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
+    say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))
+
+
+def compare(
+    files: Annotated[list[Path], Argument(help="Two or more .nc results; ratios are to the first.")],
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+) -> None:
+    """The metrics of several results side by side, with their ratios to the first.
+
+    \b
+    example
+      umbilical compare none.nc pd.nc paper.nc
+    """
+    from umbilical.run import open_run
+
+    runs = [open_run(file) for file in files]
+    if as_json:
+        say_json({"runs": [run_document(run, {"result": str(f)}) for run, f in zip(runs, files, strict=True)]})
+    else:
+        say(_comparison(runs, files))
+
+
+def _comparison(runs: list[Run], files: list[Path]) -> str:
+    from umbilical.quantities import METRICS
+
+    names = [name for name in METRICS if any(name in run.metrics for run in runs)]
+    head = ["", ""] + [cell for file in files for cell in (file.stem, "ratio")]
+    rows = [head, ["status", ""] + [cell for run in runs for cell in (run.status.name, "")]]
+    for name in names:
+        first = runs[0].metrics.get(name)
+        cells = [cell for run in runs for cell in _value_and_ratio(run.metrics.get(name), first)]
+        rows.append([name, METRICS[name].unit.removeprefix("1"), *cells])
+    columns = [k for k in range(len(head)) if k != 3]  # the first result's ratio to itself
+    return table([[row[k] for k in columns] for row in rows], right=range(2, len(columns)))
+
+
+def _value_and_ratio(value: float | None, first: float | None) -> tuple[str, str]:
+    if value is None:
+        return "-", "-"
+    return f"{value:.6g}", f"{value / first:.4g}" if first else "-"
+
+
+def export(
+    file: Annotated[Path, Argument(help="A .nc result.")],
+    to: Annotated[Literal["csv", "mat"], Option("--to", help="csv: channels over time; mat: every array, for MATLAB.")],
+    out: Annotated[Path | None, Option("--out", metavar="FILE", help="Beside the result if left out.")] = None,
+    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Write a result for other tools.
+
+    \b
+    examples
+      umbilical export paper.nc --to csv
+      umbilical export paper.nc --to mat --out for_matlab.mat
+    """
+    from umbilical.run import open_run
+
+    written = open_run(file).export(out or file.with_suffix(f".{to}"), to, force=force)
+    say(f"export: {written}")

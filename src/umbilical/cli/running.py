@@ -1,0 +1,99 @@
+"""``umbilical run``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from typer import Argument, Option
+
+from umbilical.cli.speech import run_document, say, say_json
+from umbilical.cli.targets import PICTURES, check_target
+from umbilical.errors import Problem, ScenarioError
+
+if TYPE_CHECKING:
+    from umbilical.run import Run
+
+
+def run(
+    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result to run again.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
+    ] = None,
+    out: Annotated[Path | None, Option("--out", metavar="FILE.nc", help="Store the result (NetCDF4).")] = None,
+    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Simulate a scenario. Without --out nothing is stored.
+
+    \b
+    examples
+      umbilical run paper
+      umbilical run my.toml --out my.nc --plot my.png
+      umbilical run paper --set control.law.slope_gain=5 --set motors.2.voltage_limit=8
+      umbilical run my.nc --json
+
+    Lists are numbered from 1. A diverged or interrupted run is stored and drawn as far as it went.
+    """
+    from umbilical.admission import load
+
+    chosen = load(scenario, assignments(changes or []))
+    if out:
+        check_target(out, ("nc",), force=force)
+    if plot:
+        check_target(plot, PICTURES, force=force)
+    from umbilical.cli.progress import simulate_visibly
+
+    result = simulate_visibly(chosen)
+    files = _write(result, out, plot, force)
+    if as_json:
+        say_json(run_document(result, files))
+    else:
+        say(_report(result, files, scenario))
+    return result.status.exit_code
+
+
+def assignments(texts: Sequence[str]) -> dict[str, Any]:
+    """Keys and values of all ``key=value``.
+
+    Raises:
+        ScenarioError: with every text that is not of that form.
+    """
+    from umbilical.scenario.document import assignment
+
+    found: dict[str, Any] = {}
+    problems: list[Problem] = []
+    for text in texts:
+        try:
+            key, value = assignment(text)
+            found[key] = value
+        except ScenarioError as error:
+            problems += error.problems
+    if problems:
+        raise ScenarioError(problems, "--set")
+    return found
+
+
+def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
+    """Store and draw what was asked for; the files by role."""
+    files = {}
+    if out:
+        files["result"] = str(run.save(out, force=force))
+    if plot:
+        from umbilical.plots import plot_overview, save_figure
+
+        files["plot"] = str(save_figure(plot_overview(run), plot, force=force))
+    return files
+
+
+def _report(run: Run, files: dict[str, str], source: str) -> str:
+    lines = [run.summary()]
+    if run.scenario.assumed:
+        count = len(run.scenario.assumed)
+        lines.append(f"  assumed: {count} entries that no source gives; `umbilical show {source}` lists them with reasons")
+    lines += [f"  {role}: {path}" for role, path in files.items()]
+    if "result" not in files:
+        lines.append("  nothing was stored; --out FILE.nc keeps the result")
+    return "\n".join(lines)

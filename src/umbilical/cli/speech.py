@@ -1,0 +1,105 @@
+"""What the command line says: texts on stdout, news on stderr, JSON without NaN, and exit codes."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from umbilical.errors import ScenarioError
+
+if TYPE_CHECKING:
+    from umbilical.run import Run
+
+EXIT_CODES = {
+    0: "completed",
+    1: "unexpected error: a bug of ours",
+    2: "bad input: command line, scenario or file",
+    3: "the run diverged; its result up to then is kept",
+    4: "a file cannot be written",
+    5: "a controller failed",
+    6: "an optional package is missing",
+    130: "interrupted; the result up to then is kept",
+}
+
+
+def say(text: str) -> None:
+    """What was asked for, to stdout."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+    sys.stdout.flush()
+
+
+def tell(text: str) -> None:
+    """News and errors, to stderr."""
+    sys.stderr.write(text.rstrip("\n") + "\n")
+    sys.stderr.flush()
+
+
+def say_json(document: Mapping[str, Any]) -> None:
+    """One JSON object, to stdout."""
+    say(json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False))
+
+
+def plain(value: Any) -> Any:
+    """The same data as JSON can hold it: what is not finite becomes null.
+
+    >>> plain({"a": (1.0, float("nan"))})
+    {'a': [1.0, None]}
+    """
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value
+
+
+def run_document(run: Run, files: Mapping[str, str] | None = None) -> dict[str, Any]:
+    """A run as ``--json`` prints it; ``files`` are those it was written to, by role."""
+    return {
+        "status": run.status.name,
+        "reason": run.reason,
+        "end_time": run.end_time,
+        "scenario": run.scenario.name,
+        "scenario_hash": run.scenario.hash,
+        "metrics": run.metrics,
+        "timing": dict(run.timing),
+        "notices": run.notices,
+        "assumed": run.scenario.assumed,
+        "files": dict(files or {}),
+    }
+
+
+def refusal(error: BaseException, text: str, code: int) -> dict[str, Any]:
+    """An error as ``--json`` prints it: the same keys as a run that never began, and every problem."""
+    problems = [asdict(problem) for problem in error.problems] if isinstance(error, ScenarioError) else []
+    return {
+        "status": "REFUSED" if code == 2 else "FAILED",
+        "reason": text.splitlines()[0],
+        "error": text,
+        "exit_code": code,
+        "problems": problems,
+        "metrics": {},
+        "timing": {},
+        "scenario_hash": None,
+        "notices": [],
+    }
+
+
+def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
+    """Rows of cells as aligned columns; those numbered in ``right`` are flush right.
+
+    >>> print(table([("a", "1"), ("bb", "10")], right=[1]))
+      a    1
+      bb  10
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else []
+    lines = []
+    for row in rows:
+        cells = [f"{c:>{w}}" if k in right else f"{c:<{w}}" for k, (c, w) in enumerate(zip(row, widths, strict=True))]
+        lines.append(("  " + "  ".join(cells)).rstrip())
+    return "\n".join(lines)

@@ -1,0 +1,33 @@
+"""Files a command shall write: refused before the work, not after it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from umbilical.errors import OutputError
+
+PICTURES = ("png", "pdf", "svg")
+
+
+def check_target(path: Path, kinds: tuple[str, ...], *, force: bool) -> None:
+    """Refuse a file that could not be written later.
+
+    Args:
+        path: the file.
+        kinds: endings it may have, without the dot.
+        force: whether it may replace a file.
+
+    Raises:
+        OutputError: another ending, no such folder, a folder that may not be written to, or a file that exists.
+    """
+    if path.suffix.lower().removeprefix(".") not in kinds:
+        raise OutputError(f"{path}: the name must end with {' or '.join('.' + kind for kind in kinds)}")
+    if not path.parent.is_dir():
+        raise OutputError(f"{path}: there is no folder {path.parent}; make it first")
+    if not os.access(path.parent, os.W_OK):
+        raise OutputError(f"{path}: the folder {path.parent} may not be written to; name another")
+    if path.is_dir():
+        raise OutputError(f"{path}: this is a folder; give the name of a file in it")
+    if path.exists() and not force:
+        raise OutputError(f"{path}: exists already; give another name, or --force to replace it")

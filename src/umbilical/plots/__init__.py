@@ -1,0 +1,44 @@
+"""Pictures of runs: each ``plot_*`` draws on an Axes, yours or a new one, and returns it.
+
+Labels and units come from the data. matplotlib is imported when something is drawn, and pyplot never: nothing here
+opens a window, changes a global setting, or keeps a figure alive.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper").replace({"duration": 1.0}))
+    >>> umbilical.plot_tip(run).get_ylabel()
+    '$x_1$ [m]'
+"""
+
+from umbilical.plots.cable import plot_cable, plot_positions
+from umbilical.plots.energy import plot_energy
+from umbilical.plots.figure import as_figure, save_figure
+from umbilical.plots.motors import plot_motors
+from umbilical.plots.observers import plot_observers
+from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
+from umbilical.plots.tip import plot_tip
+
+PLOTS = {
+    "overview": plot_overview,
+    "tip": plot_tip,
+    "positions": plot_positions,
+    "cable": plot_cable,
+    "motors": plot_all_motors,
+    "observers": plot_all_observers,
+    "energy": plot_energy,
+}
+"""Every picture by the name the command line gives it; each takes a run and returns an Axes or a Figure."""
+
+__all__ = [
+    "PLOTS",
+    "as_figure",
+    "plot_all_motors",
+    "plot_all_observers",
+    "plot_cable",
+    "plot_energy",
+    "plot_motors",
+    "plot_observers",
+    "plot_overview",
+    "plot_positions",
+    "plot_tip",
+    "save_figure",
+]

@@ -1,0 +1,35 @@
+"""The power balance: where the energy came from and where it went."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from umbilical.plots.figure import axis_label, draw, finish, own_or_new
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from umbilical.run import Run
+
+
+NEGLIGIBLE = 1e-3
+"""Works smaller than this share of the largest are left out: their lines would lie on zero."""
+
+
+def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
+    """Energy of cable and ROV over time, and every work on it since the start that is not negligible, J."""
+    ax = own_or_new(ax)
+    draw(ax, run["energy"], "energy", colour=6)
+    for number, name in enumerate(large_works(run)):
+        draw(ax, run[name], name.replace("_", " "), colour=number % 6, dashed=number >= 6)
+    residual = run.metrics.get("energy_balance_residual", float("nan"))
+    title = f"energy of cable and ROV, and the work done on it (balance closes to {residual:.1e})"
+    finish(ax, run, title, axis_label(run["energy"]))
+    ax.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    return ax
+
+
+def large_works(run: Run) -> list[str]:
+    """Names of the works that would show."""
+    sizes = {str(name): float(abs(run[str(name)]).max()) for name in run.data.data_vars if str(name).startswith("work_")}
+    return [name for name, size in sizes.items() if size > NEGLIGIBLE * max(sizes.values())]

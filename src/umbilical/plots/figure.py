@@ -1,0 +1,130 @@
+"""What all pictures share: axes, colours, labels from the data, marks of events, files."""
+
+from __future__ import annotations
+
+import io
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical import files
+from umbilical.errors import OutputError
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from umbilical.run import Run
+
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+"""Okabe and Ito's: told apart by everyone. Lines that belong together differ in dashes, too."""
+QUIET = "#808080"
+MANY_JUMPS = 20
+"""More marks than this would hide the curves."""
+
+
+def own_or_new(ax: Axes | None) -> Axes:
+    """The axes given, or those of a new figure."""
+    return new_figure(8.0, 4.0).add_subplot() if ax is None else ax
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """A figure that pyplot does not know of; inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def as_figure(drawn: Axes | Figure) -> Figure:
+    """The figure of what a ``plot_*`` returned."""
+    from matplotlib.figure import Figure
+
+    if isinstance(drawn, Figure):
+        return drawn
+    figure = drawn.get_figure(root=True)
+    assert figure is not None
+    return figure
+
+
+def save_figure(figure: Figure, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+    """Store a figure as ``.png``, ``.pdf`` or ``.svg``; whole or not at all, with no clock inside.
+
+    Raises:
+        OutputError: another ending, or the file cannot be written.
+    """
+    clocks = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+    kind = Path(path).suffix.lower().removeprefix(".")
+    if kind not in clocks:
+        raise OutputError(f"{path}: a picture's name must end with {', '.join('.' + k for k in clocks)}")
+    from matplotlib import rc_context
+
+    picture = io.BytesIO()
+    with rc_context({"svg.hashsalt": "umbilical"}):
+        figure.savefig(picture, format=kind, dpi=150, metadata=clocks[kind])
+    return files.write(path, picture.getvalue(), force=force)
+
+
+def axis_label(array: xarray.DataArray) -> str:
+    """Symbol and unit of a channel, for an axis."""
+    symbol, unit = array.attrs["symbol"], array.attrs["units"]
+    parts = [f"${symbol}$" if symbol else "", f"[{unit}]" if unit not in ("", "1") else ""]
+    return " ".join(part for part in parts if part)
+
+
+def draw(ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, dashed: bool = False) -> None:
+    """One channel of time as a line. A dashed line lies on top, so that both show where they agree."""
+    style = {"linestyle": (0, (4, 3)), "linewidth": 1.2, "zorder": 3} if dashed else {"linewidth": 1.4}
+    ax.plot(array["time"].values, array.values, color=COLOURS[colour % len(COLOURS)], label=label or None, **style)
+
+
+def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
+    """Title, labels, grid, legend where something is named, and the marks of events."""
+    mark_events(ax, run)
+    ax.set_title(title, fontsize=9.5)
+    ax.set_xlabel(f"{run['time'].attrs['long_name']} [{run['time'].attrs['units']}]")
+    ax.set_ylabel(ylabel)
+    ax.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
+    ax.margins(x=0.0)
+    ax.grid(alpha=0.25, linewidth=0.6)
+    ax.spines[["top", "right"]].set_visible(False)
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(fontsize=8, loc="best", framealpha=0.85, borderpad=0.3, ncols=2)
+    return ax
+
+
+def mark_events(ax: Axes, run: Run) -> None:
+    """Dashed lines, named, where faults begin and end; dotted ones where anything else jumps."""
+    from umbilical.plant.exogenous import published_jumps
+
+    last = float(run["time"].values[-1]) if run["time"].size else 0.0
+    named = fault_words(run)
+    jumps = [t for t in published_jumps(run.scenario) if 0.0 < t < last and t not in named]
+    for t in jumps if len(jumps) <= MANY_JUMPS else []:
+        ax.axvline(t, color=QUIET, linewidth=0.8, linestyle=":")
+    for t, words in named.items():
+        if t < last:
+            ax.axvline(t, color=QUIET, linewidth=1.0, linestyle="--")
+            place = {"xytext": (3, -3), "textcoords": "offset points", "va": "top", "fontsize": 8}
+            ax.annotate(words, (t, 1.0), xycoords=("data", "axes fraction"), color="#404040", **place)
+
+
+def fault_words(run: Run) -> dict[float, str]:
+    """What happens to the motors, by instant, s."""
+    words: dict[float, list[str]] = {}
+    for fault in run.scenario.faults:
+        words.setdefault(fault.start, []).append(f"motor {fault.motor}: {fault.kind}")
+        if fault.end is not None:
+            words.setdefault(fault.end, []).append(f"motor {fault.motor}: healthy")
+    return {t: "\n".join(texts) for t, texts in words.items()}
+
+
+def at_sigma(run: Run, sigma: float) -> xarray.DataArray:
+    """Displacement at a share of the length, between nodes along a straight line, over time."""
+    nodes = run["sigma"].values
+    right = int(np.clip(np.searchsorted(nodes, sigma), 1, nodes.size - 1))
+    share = (sigma - nodes[right - 1]) / (nodes[right] - nodes[right - 1])
+    y = run["displacement"]
+    return (1.0 - share) * y.isel(sigma=right - 1) + share * y.isel(sigma=right)

@@ -1,0 +1,76 @@
+"""Several panels on one page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
+
+from umbilical.plots.cable import plot_cable, plot_positions
+from umbilical.plots.energy import plot_energy
+from umbilical.plots.figure import new_figure
+from umbilical.plots.motors import adapted, plot_allocation, plot_motors
+from umbilical.plots.observers import estimated, plot_observers
+from umbilical.plots.tip import plot_thrust, plot_tip
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from umbilical.run import Run
+
+Panel = Callable[..., object]
+SHOWN_MOTORS = 4
+"""Motors with a panel of their own; a page has an end."""
+
+
+def plot_overview(run: Run) -> Figure:
+    """Everything worth a first look on one page; what the run does not have gets no panel."""
+    motors = driven(run)
+    panels: list[Panel] = [plot_tip, plot_cable, plot_positions]
+    panels += [plot_thrust] if bool(run["thrust"].any()) else []
+    panels += [partial(plot_motors, channel=name) for name in ("motor_speed", "motor_voltage") if motors]
+    panels += [partial(plot_observers, channel=name) for name in ("tip_velocity", "disturbance") if name in estimated(run)]
+    panels += [plot_allocation] if adapted(run) else []
+    return page(run, [*panels, plot_energy], columns=2)
+
+
+def plot_all_motors(run: Run) -> Figure:
+    """Speeds, voltages and currents, one above the other.
+
+    Raises:
+        ValueError: the run has no motors.
+    """
+    channels = ("motor_speed", "motor_voltage", "motor_current")
+    return page(run, [partial(plot_motors, channel=name) for name in channels], columns=1)
+
+
+def plot_all_observers(run: Run) -> Figure:
+    """Every estimate on top of its truth, one above the other.
+
+    Raises:
+        ValueError: nothing was estimated.
+    """
+    names = estimated(run)
+    if not names:
+        raise ValueError(f"{run.scenario.name}: nothing was estimated in this run")
+    single = [partial(plot_observers, channel=name) for name in names if name != "motor_disturbance"]
+    numbers = run["motor"].values[:SHOWN_MOTORS] if "motor_disturbance" in names else ()
+    return page(run, [*single, *(partial(plot_observers, channel="motor_disturbance", motor=k) for k in numbers)], columns=1)
+
+
+def driven(run: Run) -> bool:
+    """Whether the run has motors that somebody drove."""
+    return "motor_voltage" in run.data and bool(run["motor_voltage"].any())
+
+
+def page(run: Run, panels: Sequence[Panel], columns: int) -> Figure:
+    """Panels row by row on one page; an odd last one takes the whole row."""
+    rows = -(-len(panels) // columns)
+    figure = new_figure(6.0 * columns + (3.0 if columns == 1 else 0.0), 2.7 * rows + 0.5)
+    grid = figure.add_gridspec(rows, columns)
+    for number, panel in enumerate(panels):
+        row, column = divmod(number, columns)
+        alone = number == len(panels) - 1 and column == 0
+        panel(run, ax=figure.add_subplot(grid[row, :] if alone else grid[row, column]))
+    figure.suptitle(f"{run.scenario.name}: {run.status.name.lower()} at t = {run.end_time:.6g} s", fontsize=12)
+    return figure
