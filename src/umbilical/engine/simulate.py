@@ -215,6 +215,8 @@ def _assemble(
         samples, times = samples + 1, np.append(times, scenario.duration)
     named = channels(setup.record.log, samples, bool(scenario.motors))
     metrics = _metrics(setup.record.tally, float(setup.world.state.fields[DISPLACEMENT, 0, -1]))
+    if not scenario.faults:
+        del metrics["tip_peak_after_fault"]
     if samples:
         works = np.stack([named[name] for name in WORKS], axis=1)
         named["energy"] = energy(scenario, named)

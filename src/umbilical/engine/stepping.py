@@ -48,9 +48,11 @@ from umbilical.plant.motors import advance_motor, applied_voltage, make_motor_st
 from umbilical.plant.power import (
     ALONG_TERMS,
     END_TERMS,
+    PAYLOAD_FORCE,
     TENSION,
     THRUST,
     add_power,
+    mean_work,
     power_along,
     power_at_ends,
     strain_of_elements,
@@ -168,10 +170,8 @@ def refresh(plant: Plant, state: PlantState, target: int) -> None:
 def note_power(plant: Plant, state: PlantState) -> None:
     """Terms of the power balance at the present instant."""
     now, cable = state.now, plant.cable
-    power_at_ends(
-        cable, state.fields, state.power_ends[PRESENT], now[LENGTH], now[SPEED], now[NET_GRAVITY],
-        now[VESSEL_VELOCITY], now[DELIVERED], now[FORCE],
-    )  # fmt: skip
+    ends = state.power_ends[PRESENT]
+    power_at_ends(cable, state.fields, ends, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
     along = state.power_along[PRESENT]
     power_along(cable, state.fields, along, now[LENGTH], now[NET_GRAVITY], now[JERK_RATIO], state.loads)
 
@@ -203,8 +203,7 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     fields, now = state.fields, state.now
     elements = fields.shape[2] - 1
     dt = inputs.dt[i]
-    # A new command may have changed the thrust of an ideal thruster since the last end.
-    state.power_ends[PRESENT, THRUST] = fields[VELOCITY, 0, elements] * now[DELIVERED]
+    delivered, force, tip = now[DELIVERED], now[FORCE], fields[VELOCITY, 0, elements]
     add_work(state, 0.5 * dt)
     kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
     length, speed = inputs.world[LENGTH, MIDDLE, i], inputs.world[SPEED, MIDDLE, i]
@@ -222,3 +221,6 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     correct(fields, 0.5 * dt)
     note_power(plant, state)
     add_work(state, 0.5 * dt)
+    work, tip_end = state.power_ends[SINCE_START], fields[VELOCITY, 0, elements]
+    work[THRUST] += mean_work(dt, delivered, now[DELIVERED], tip, tip_end)
+    work[PAYLOAD_FORCE] += mean_work(dt, force, now[FORCE], tip, tip_end)

@@ -18,7 +18,7 @@ from umbilical.plant.cable import SCRATCH, SLOPE, VELOCITY, W0, W1, W2, Cable
 from umbilical.relations.formulas import tension
 
 # Terms that act at the ends of the cable; then those along it, which are kept element by element.
-THRUST, PAYLOAD_FORCE, PAYLOAD_DAMPING, VESSEL = range(4)
+THRUST, PAYLOAD_FORCE, PAYLOAD_DAMPING, VESSEL = range(4)  # the first two by mean_work
 CABLE_DAMPING, CABLE_LOAD, TENSION = range(3)
 END_TERMS, ALONG_TERMS = 4, 3
 
@@ -97,26 +97,16 @@ def power_along(
 
 @kernel
 def power_at_ends(
-    cable: Cable,
-    fields: np.ndarray,
-    out: np.ndarray,
-    length: float,
-    speed: float,
-    net_gravity: float,
-    vessel_velocity: float,
-    thrust: float,
-    payload_force: float,
+    cable: Cable, fields: np.ndarray, out: np.ndarray, length: float, speed: float, net_gravity: float, vessel: float
 ) -> None:
-    """Terms at ROV and vessel at the present state into ``out``, shape (4,), W."""
+    """Damping of the ROV and the vessel's end at the present state into ``out``, shape (4,), W; ``vessel`` is e'."""
     n = fields.shape[2] - 1
     tip = fields[VELOCITY, 0, n]
     top_tension = tension(length, net_gravity, cable.payload_mass, cable.hanging_density)
     top_slope = 2.0 * n / length * fields[SLOPE, 0, 0]
-    top_velocity = vessel_velocity + speed * top_slope
-    out[THRUST] = tip * thrust
-    out[PAYLOAD_FORCE] = tip * payload_force
+    top_velocity = vessel + speed * top_slope
     out[PAYLOAD_DAMPING] = -cable.payload_damping * tip * tip
-    pull = -top_tension * top_slope * (vessel_velocity + 0.5 * speed * top_slope)
+    pull = -top_tension * top_slope * (vessel + 0.5 * speed * top_slope)
     out[VESSEL] = pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity
 
 
@@ -125,3 +115,13 @@ def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
     """work += power * time, along a row."""
     for k in range(work.size):
         work[k] += time * power[k]
+
+
+@kernel
+def mean_work(time: float, force: float, force_end: float, velocity: float, velocity_end: float) -> float:
+    """Work of a force on the ROV over a step, J: mean force times mean velocity.
+
+    It is what the kicks of the scheme do to the kinetic energy, so a force that changes within a few steps
+    leaves no residual of the balance behind.
+    """
+    return 0.25 * time * (force + force_end) * (velocity + velocity_end)
