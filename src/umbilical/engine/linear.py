@@ -13,7 +13,7 @@ from umbilical.engine.simulate import _set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.plant import winch
 from umbilical.plant.cable import ACCELERATION, DISPLACEMENT, VELOCITY
-from umbilical.plant.exogenous import Inputs, Steps, sample
+from umbilical.plant.exogenous import Inputs, Outside, Steps
 from umbilical.plant.layout import to_field, to_nodal
 from umbilical.scenario.scenario import Scenario
 
@@ -39,7 +39,7 @@ def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
     """
     still = _stopped(scenario, time)
     world = _set_up(still, None).world
-    inputs = sample(still, Steps(np.zeros(1), np.full(1, still.grid.step), np.zeros(0)))
+    inputs = Outside(still).sample(Steps(np.zeros(1), np.full(1, still.grid.step), np.zeros(0)))
     size = len(_FIELDS) * 4 * still.grid.elements
     columns = [_step(world, inputs, unit) for unit in np.eye(size)]
     return np.stack(columns, axis=1)
