@@ -46,4 +46,4 @@ def plot_positions(run: Run, *, ax: Axes | None = None) -> Axes:
     for number, (name, sigma) in enumerate(PLACES.items()):
         draw(ax, at_sigma(run, sigma), f"$x = {name}$", colour=number)
     y = run["displacement"]
-    return finish(ax, run, "displacement at four places", axis_label(y))
+    return finish(ax, run, "displacement", axis_label(y))

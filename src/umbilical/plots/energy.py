@@ -21,12 +21,10 @@ def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
     ax = own_or_new(ax)
     draw(ax, run["energy"], "energy", colour=6)
     for number, name in enumerate(large_works(run)):
-        draw(ax, run[name], name.replace("_", " "), colour=number % 6, dashed=number >= 6)
+        draw(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)
     residual = run.metrics.get("energy_balance_residual", float("nan"))
-    title = f"energy of cable and ROV, and the work done on it (balance closes to {residual:.1e})"
-    finish(ax, run, title, axis_label(run["energy"]))
-    ax.legend(fontsize=8, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    return ax
+    title = f"energy and work done on it, closing to {residual:.1e}"
+    return finish(ax, run, title, axis_label(run["energy"]))
 
 
 def large_works(run: Run) -> list[str]:

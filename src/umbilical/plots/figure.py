@@ -24,6 +24,10 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 QUIET = "#808080"
 MANY_JUMPS = 20
 """More marks than this would hide the curves."""
+PLAIN_POWERS = (-4, 5)
+"""Powers of ten between which ticks are written out."""
+ONE_ROW = 5
+"""Names in one row of a legend; it stands above the axes, where no curve is."""
 
 
 def own_or_new(ax: Axes | None) -> Axes:
@@ -83,15 +87,17 @@ def draw(ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, da
 def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
     """Title, labels, grid, legend where something is named, and the marks of events."""
     mark_events(ax, run)
-    ax.set_title(title, fontsize=9.5)
+    ax.set_title(title, fontsize=9.5, loc="left")
     ax.set_xlabel(f"{run['time'].attrs['long_name']} [{run['time'].attrs['units']}]")
     ax.set_ylabel(ylabel)
-    ax.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
+    ax.ticklabel_format(axis="y", style="sci", scilimits=PLAIN_POWERS, useMathText=True)
     ax.margins(x=0.0)
     ax.grid(alpha=0.25, linewidth=0.6)
     ax.spines[["top", "right"]].set_visible(False)
-    if ax.get_legend_handles_labels()[1]:
-        ax.legend(fontsize=8, loc="best", framealpha=0.85, borderpad=0.3, ncols=2)
+    if names := ax.get_legend_handles_labels()[1]:
+        columns = len(names) if len(names) <= ONE_ROW else -(-len(names) // 2)
+        place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderpad": 0.1, "borderaxespad": 0.2}
+        ax.legend(fontsize=8, ncols=columns, frameon=False, columnspacing=1.0, handlelength=1.5, **place)
     return ax
 
 

@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
     from umbilical.run import Run
 
+NAMED = 6
+"""Motors with a name in the legend; there are no more colours to tell them apart."""
+
 
 def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = None) -> Axes:
     """One channel of every motor over time: ``motor_speed`` (with its reference), ``motor_voltage``, ``motor_current``.
@@ -21,11 +24,11 @@ def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = Non
     if channel not in run.data or "motor" not in run[channel].dims or not run.data.sizes["motor"]:
         raise ValueError(f"{run.scenario.name}: this run has no {channel} of motors")
     ax = own_or_new(ax)
-    references = run["speed_reference"] if channel == "motor_speed" and run["speed_reference"].any() else None
     for place, number in enumerate(run["motor"].values):
-        draw(ax, run[channel].isel(motor=place), f"motor {number}", colour=place)
-        if references is not None:
-            draw(ax, references.isel(motor=place), f"reference {number}", colour=place + 2, dashed=True)
+        draw(ax, run[channel].isel(motor=place), f"motor {number}" if number <= NAMED else "", colour=place)
+    if channel == "motor_speed" and run["speed_reference"].any():
+        for place in range(run.data.sizes["motor"]):
+            draw(ax, run["speed_reference"].isel(motor=place), "" if place else "reference", colour=6, dashed=True)
     return finish(ax, run, run[channel].attrs["long_name"], axis_label(run[channel]))
 
 
@@ -43,8 +46,8 @@ def plot_allocation(run: Run, *, ax: Axes | None = None) -> Axes:
     for place, number in enumerate(run["kappa_index"].values):
         values = run["kappa"].isel(kappa_index=place)
         size = float(abs(values).max())
-        draw(ax, values / (size or 1.0), rf"$\kappa_{number}$ / {size:.3g}", colour=place)
-    return finish(ax, run, "adaptive allocation, each weight over its largest size", "")
+        draw(ax, values / (size or 1.0), rf"$\kappa_{number}$ / {size:.3g}", colour=place, dashed=place > 1)
+    return finish(ax, run, "adaptive allocation", "")
 
 
 def adapted(run: Run) -> bool:

@@ -35,7 +35,7 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
     if channel not in known:
         raise ValueError(f"{run.scenario.name}: {channel} was not estimated; estimated: {', '.join(known) or 'nothing'}")
     truth, estimate = run[channel], run[ESTIMATES[channel]]
-    title = truth.attrs["long_name"]
+    title = truth.attrs["long_name"].partition(":")[0]
     if "motor" in truth.dims:
         if motor not in truth["motor"].values:
             raise ValueError(f"{run.scenario.name}: there is no motor {motor}")

@@ -31,7 +31,8 @@ def plot_overview(run: Run) -> Figure:
     panels += [partial(plot_motors, channel=name) for name in ("motor_speed", "motor_voltage") if motors]
     panels += [partial(plot_observers, channel=name) for name in ("tip_velocity", "disturbance") if name in estimated(run)]
     panels += [plot_allocation] if adapted(run) else []
-    return page(run, [*panels, plot_energy], columns=2)
+    head = [panels.pop(panels.index(plot_cable))] if len(panels) % 2 else []
+    return page(run, [[panel] for panel in head] + pairs(panels) + [[plot_energy]])
 
 
 def plot_all_motors(run: Run) -> Figure:
@@ -41,7 +42,7 @@ def plot_all_motors(run: Run) -> Figure:
         ValueError: the run has no motors.
     """
     channels = ("motor_speed", "motor_voltage", "motor_current")
-    return page(run, [partial(plot_motors, channel=name) for name in channels], columns=1)
+    return page(run, [[partial(plot_motors, channel=name)] for name in channels])
 
 
 def plot_all_observers(run: Run) -> Figure:
@@ -53,9 +54,10 @@ def plot_all_observers(run: Run) -> Figure:
     names = estimated(run)
     if not names:
         raise ValueError(f"{run.scenario.name}: nothing was estimated in this run")
-    single = [partial(plot_observers, channel=name) for name in names if name != "motor_disturbance"]
+    panels = [partial(plot_observers, channel=name) for name in names if name != "motor_disturbance"]
     numbers = run["motor"].values[:SHOWN_MOTORS] if "motor_disturbance" in names else ()
-    return page(run, [*single, *(partial(plot_observers, channel="motor_disturbance", motor=k) for k in numbers)], columns=1)
+    panels += [partial(plot_observers, channel="motor_disturbance", motor=k) for k in numbers]
+    return page(run, [[panel] for panel in panels])
 
 
 def driven(run: Run) -> bool:
@@ -63,14 +65,17 @@ def driven(run: Run) -> bool:
     return "motor_voltage" in run.data and bool(run["motor_voltage"].any())
 
 
-def page(run: Run, panels: Sequence[Panel], columns: int) -> Figure:
-    """Panels row by row on one page; an odd last one takes the whole row."""
-    rows = -(-len(panels) // columns)
-    figure = new_figure(6.0 * columns + (3.0 if columns == 1 else 0.0), 2.7 * rows + 0.5)
-    grid = figure.add_gridspec(rows, columns)
-    for number, panel in enumerate(panels):
-        row, column = divmod(number, columns)
-        alone = number == len(panels) - 1 and column == 0
-        panel(run, ax=figure.add_subplot(grid[row, :] if alone else grid[row, column]))
+def pairs(panels: Sequence[Panel]) -> list[list[Panel]]:
+    """Panels two by two."""
+    return [list(panels[k : k + 2]) for k in range(0, len(panels), 2)]
+
+
+def page(run: Run, rows: Sequence[Sequence[Panel]]) -> Figure:
+    """Rows of panels, each row as wide as the page."""
+    figure = new_figure(12.0 if max(map(len, rows)) > 1 else 9.0, 2.7 * len(rows) + 0.5)
+    grid = figure.add_gridspec(len(rows), max(map(len, rows)))
+    for number, row in enumerate(rows):
+        for column, panel in enumerate(row):
+            panel(run, ax=figure.add_subplot(grid[number, column] if len(row) > 1 else grid[number, :]))
     figure.suptitle(f"{run.scenario.name}: {run.status.name.lower()} at t = {run.end_time:.6g} s", fontsize=12)
     return figure
