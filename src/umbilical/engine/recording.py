@@ -118,11 +118,11 @@ def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
     g = state.fields[SLOPE]
     n = g.shape[1] - 1
     scale = 2.0 * n / state.now[LENGTH]
-    for j in range(5):
-        for e in range(n):
-            slope = abs(g[j, e]) * scale
-            # Written so that a slope that is not a number is kept, too.
-            slopes[e] = slopes[e] if slope <= slopes[e] else slope
+    for e in range(n):
+        largest = max(max(max(abs(g[0, e]), abs(g[1, e])), max(abs(g[2, e]), abs(g[3, e]))), abs(g[4, e]))
+        # A maximum may lose what is not a number; the product with zero does not, nor does the comparison.
+        slope = scale * largest + 0.0 * (g[0, e] + g[1, e] + g[2, e] + g[3, e] + g[4, e])
+        slopes[e] = slopes[e] if slope <= slopes[e] else slope
     steep = 0
     for e in range(n):
         steep += 0 if slopes[e] <= STEEPEST else 1

@@ -20,7 +20,7 @@ from umbilical.control.contract import (
     Readings,
 )
 from umbilical.engine.stepping import PlantState
-from umbilical.plant.cable import D40, D41, D42, D43, D44, DISPLACEMENT, SLOPE, VELOCITY
+from umbilical.plant.cable import DISPLACEMENT, SLOPE, TIP_ROW, VELOCITY
 from umbilical.plant.exogenous import ACCELERATION, LENGTH, SPEED
 from umbilical.plant.motors import CURRENT
 from umbilical.plant.motors import SPEED as ROTOR_SPEED
@@ -91,7 +91,8 @@ def true_slope_rate(state: PlantState) -> float:
     """D(y_x)/Dt at the ROV: the slope of the velocity there, 1/s."""
     n = state.fields.shape[2] - 1
     w, e = state.fields[VELOCITY], n - 1
-    slope = D40 * w[0, e] + D41 * w[1, e] + D42 * w[2, e] + D43 * w[3, e] + D44 * w[0, n]
+    d = TIP_ROW
+    slope = d[0] * w[0, e] + d[1] * w[1, e] + d[2] * w[2, e] + d[3] * w[3, e] + d[4] * w[0, n]
     return 2.0 * n / state.now[LENGTH] * slope
 
 

@@ -28,20 +28,16 @@ from umbilical.plant.layout import positions, to_field
 from umbilical.relations.formulas import tension
 from umbilical.scenario.scenario import Scenario
 
-# Derivative on the reference element, entry by entry: constants that the compiler can fold.
-D00, D01, D02, D03, D04 = (float(d) for d in DERIVATIVE[0])
-D10, D11, D12, D13, D14 = (float(d) for d in DERIVATIVE[1])
-D20, D21, D22, D23, D24 = (float(d) for d in DERIVATIVE[2])
-D30, D31, D32, D33, D34 = (float(d) for d in DERIVATIVE[3])
-D40, D41, D42, D43, D44 = (float(d) for d in DERIVATIVE[4])
-
-# Its adjoint under the quadrature, G = W^-1 D^T W: what summation by parts puts on the test function.
+# Derivative on the reference element, and its adjoint under the quadrature, W^-1 D^T W, which summation by
+# parts puts on the test function. Nodes lie symmetrically, so both turn even functions into odd ones and odd
+# ones into even ones: kept as the two halves, they need half the multiplications. Constants, for the compiler.
 _ADJOINT = DERIVATIVE.T * WEIGHTS[None, :] / WEIGHTS[:, None]
-G00, G01, G02, G03, G04 = (float(d) for d in _ADJOINT[0])
-G10, G11, G12, G13, G14 = (float(d) for d in _ADJOINT[1])
-G20, G21, G22, G23, G24 = (float(d) for d in _ADJOINT[2])
-G30, G31, G32, G33, G34 = (float(d) for d in _ADJOINT[3])
-G40, G41, G42, G43, G44 = (float(d) for d in _ADJOINT[4])
+# Row j of the first half acts on ((f0 + f4)/2, (f1 + f3)/2, f2), of the second on ((f0 - f4)/2, (f1 - f3)/2).
+D0_EVEN, D1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in DERIVATIVE[:2])
+D0_ODD, D1_ODD, D2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in DERIVATIVE[:3])
+G0_EVEN, G1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in _ADJOINT[:2])
+G0_ODD, G1_ODD, G2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in _ADJOINT[:3])
+TIP_ROW = tuple(float(d) for d in DERIVATIVE[4])
 
 END_WEIGHT = float(WEIGHTS[0])
 W0, W1, W2 = (float(w) for w in WEIGHTS[:3])
@@ -92,19 +88,36 @@ def make_fields(displacement: np.ndarray) -> np.ndarray:
 @kernel
 def differentiate(field: np.ndarray, out: np.ndarray) -> None:
     """out[j, e]: derivative of ``field`` on the reference element at point j of element e."""
-    n = field.shape[1] - 1
     f = field
-    # One loop per point: the compiler vectorises each of them, and none when they are one.
-    for e in range(n):
-        out[0, e] = D00 * f[0, e] + D01 * f[1, e] + D02 * f[2, e] + D03 * f[3, e] + D04 * f[0, e + 1]
-    for e in range(n):
-        out[1, e] = D10 * f[0, e] + D11 * f[1, e] + D12 * f[2, e] + D13 * f[3, e] + D14 * f[0, e + 1]
-    for e in range(n):
-        out[2, e] = D20 * f[0, e] + D21 * f[1, e] + D22 * f[2, e] + D23 * f[3, e] + D24 * f[0, e + 1]
-    for e in range(n):
-        out[3, e] = D30 * f[0, e] + D31 * f[1, e] + D32 * f[2, e] + D33 * f[3, e] + D34 * f[0, e + 1]
-    for e in range(n):
-        out[4, e] = D40 * f[0, e] + D41 * f[1, e] + D42 * f[2, e] + D43 * f[3, e] + D44 * f[0, e + 1]
+    for e in range(f.shape[1] - 1):
+        ends, inner, middle = 0.5 * (f[0, e] + f[0, e + 1]), 0.5 * (f[1, e] + f[3, e]), f[2, e]
+        end_step, inner_step = 0.5 * (f[0, e] - f[0, e + 1]), 0.5 * (f[1, e] - f[3, e])
+        odd0 = D0_EVEN[0] * ends + D0_EVEN[1] * inner + D0_EVEN[2] * middle
+        odd1 = D1_EVEN[0] * ends + D1_EVEN[1] * inner + D1_EVEN[2] * middle
+        even0 = D0_ODD[0] * end_step + D0_ODD[1] * inner_step
+        even1 = D1_ODD[0] * end_step + D1_ODD[1] * inner_step
+        out[0, e] = even0 + odd0
+        out[1, e] = even1 + odd1
+        out[2, e] = D2_ODD[0] * end_step + D2_ODD[1] * inner_step
+        out[3, e] = even1 - odd1
+        out[4, e] = even0 - odd0
+
+
+@kernel
+def apply_adjoint(f: np.ndarray) -> None:
+    """The adjoint derivative of values at the five points of each element, in their place."""
+    for e in range(f.shape[1] - 1):
+        ends, inner, middle = 0.5 * (f[0, e] + f[4, e]), 0.5 * (f[1, e] + f[3, e]), f[2, e]
+        end_step, inner_step = 0.5 * (f[0, e] - f[4, e]), 0.5 * (f[1, e] - f[3, e])
+        odd0 = G0_EVEN[0] * ends + G0_EVEN[1] * inner + G0_EVEN[2] * middle
+        odd1 = G1_EVEN[0] * ends + G1_EVEN[1] * inner + G1_EVEN[2] * middle
+        even0 = G0_ODD[0] * end_step + G0_ODD[1] * inner_step
+        even1 = G1_ODD[0] * end_step + G1_ODD[1] * inner_step
+        f[0, e] = even0 + odd0
+        f[1, e] = even1 + odd1
+        f[2, e] = G2_ODD[0] * end_step + G2_ODD[1] * inner_step
+        f[3, e] = even1 - odd1
+        f[4, e] = even0 - odd0
 
 
 @kernel
@@ -124,30 +137,20 @@ def momentum_flux(cable: Cable, fields: np.ndarray, length: float, speed: float,
 
 
 @kernel
-def flux_to_acceleration(cable: Cable, fields: np.ndarray, target: int, length: float, speed: float) -> None:
-    """Adjoint derivative of the flux over the mass of each node, less transport of mass and damping."""
+def force_to_acceleration(cable: Cable, fields: np.ndarray, target: int, length: float, speed: float) -> None:
+    """Force of every point (in the flux) over the mass of its node, less transport of mass and damping."""
     n = fields.shape[2] - 1
-    w, f, edge, out = fields[VELOCITY], fields[FLUX], fields[SCRATCH], fields[target]
+    w, force, out = fields[VELOCITY], fields[FLUX], fields[target]
     inside = 2.0 * n / (cable.line_density * length)
     loss = speed / length + cable.damping / cable.line_density
-    for e in range(n):
-        s = G10 * f[0, e] + G11 * f[1, e] + G12 * f[2, e] + G13 * f[3, e] + G14 * f[4, e]
-        out[1, e] = inside * s - loss * w[1, e]
-    for e in range(n):
-        s = G20 * f[0, e] + G21 * f[1, e] + G22 * f[2, e] + G23 * f[3, e] + G24 * f[4, e]
-        out[2, e] = inside * s - loss * w[2, e]
-    for e in range(n):
-        s = G30 * f[0, e] + G31 * f[1, e] + G32 * f[2, e] + G33 * f[3, e] + G34 * f[4, e]
-        out[3, e] = inside * s - loss * w[3, e]
-    for e in range(n):
-        edge[0, e] = G00 * f[0, e] + G01 * f[1, e] + G02 * f[2, e] + G03 * f[3, e] + G04 * f[4, e]
-    for e in range(n):
-        edge[1, e] = G40 * f[0, e] + G41 * f[1, e] + G42 * f[2, e] + G43 * f[3, e] + G44 * f[4, e]
+    for j in range(1, 4):
+        for e in range(n):
+            out[j, e] = inside * force[j, e] - loss * w[j, e]
     # Two elements meet at these nodes, each with half of the mass.
     for e in range(1, n):
-        out[0, e] = 0.5 * inside * (edge[0, e] + edge[1, e - 1]) - loss * w[0, e]
+        out[0, e] = 0.5 * inside * (force[0, e] + force[4, e - 1]) - loss * w[0, e]
     tip_share = END_WEIGHT / (2.0 * n) * cable.line_density * length
-    push = END_WEIGHT * edge[1, n - 1] - (tip_share * loss + cable.payload_damping) * w[0, n]
+    push = END_WEIGHT * force[4, n - 1] - (tip_share * loss + cable.payload_damping) * w[0, n]
     out[0, n] = push / (tip_share + cable.payload_mass)
     out[0, 0] = 0.0
 
@@ -185,7 +188,8 @@ def evaluate(
     differentiate(fields[DISPLACEMENT], fields[SLOPE])
     fields[VELOCITY, 0, 0] = vessel_velocity + speed / length * (2.0 * n * fields[SLOPE, 0, 0])
     momentum_flux(cable, fields, length, speed, net_gravity)
-    flux_to_acceleration(cable, fields, target, length, speed)
+    apply_adjoint(fields[FLUX])
+    force_to_acceleration(cable, fields, target, length, speed)
     if loads.size > 0:
         add_loads(cable, fields[target], length, loads)
 
