@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import traceback
 from collections.abc import Sequence
@@ -79,6 +80,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     debug = "--debug" in given
     try:
         return app([word for word in given if word != "--debug"], prog_name="umbilical", standalone_mode=False) or 0
+    except BrokenPipeError:  # the reader has gone; nothing must be written to it at the end, either
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 4
     except (Exception, KeyboardInterrupt) as error:
         if debug:
             traceback.print_exception(error)
@@ -103,8 +107,6 @@ def _verdict(error: BaseException) -> tuple[int, str]:
             return 2, _usage(error)
         case KeyboardInterrupt() | typer.Abort():
             return 130, "umbilical: interrupted"
-        case BrokenPipeError():
-            return 4, "umbilical: whoever read the output has gone"
     return 1, (
         f"umbilical: {type(error).__name__}: {error}\n"
         "This is a bug of Umbilical, not of your input. Please report it with the command, the scenario and the\n"

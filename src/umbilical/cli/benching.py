@@ -14,7 +14,9 @@ def bench(
     cold: Annotated[bool, Option("--cold", help="Also compile everything anew, with an empty cache.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Measure how long the paper's 50 s take here: in the compiled loop and its parts, in the Python loop, in scipy.
+    """Measure how long the paper's 50 s take here.
+
+    Rows: the compiled loop and its parts, the Python loop, and a plain numpy + scipy script of the same system.
 
     \b
     examples
@@ -30,8 +32,8 @@ def bench(
     if as_json:
         say_json(found.document())
     else:
-        rows = [("", "s", "x real time", ""), *((r.name, f"{r.seconds:.4g}", _times(r.speed), r.note) for r in found.rows)]
-        say(f"{found.machine}\n\n{table(rows, right=(1, 2))}")
+        rows = [(r.name, f"{r.seconds:.4g}", _times(r.speed), r.note) for r in found.rows]
+        say(f"{found.headline}\n\n{table([('', 's', 'x real time', ''), *rows], right=(1, 2))}")
 
 
 def _times(speed: float | None) -> str:

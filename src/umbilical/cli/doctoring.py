@@ -21,7 +21,7 @@ PARTNERS = ("control", "gymnasium", "optuna", "dask", "moordyn", "wavespectra")
 def doctor(
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> int:
-    """Versions, folders, cores: what to send along with a question. Fails if a needed package is missing."""
+    """Show versions, folders and cores, to send along with a question."""
     findings = examine()
     if as_json:
         say_json(findings)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from umbilical.cli.speech import shown_unit
 from umbilical.scenario.base import Record
 from umbilical.scenario.fields import word
 from umbilical.scenario.scenario import Scenario
@@ -43,8 +44,8 @@ def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[En
             for number, item in enumerate(value, start=1):
                 yield from _entries(item, f"{key}.{number}.", marks)
         elif value not in (None, (), ""):
-            unit = word(field, "unit").removeprefix("1")
-            yield Entry(key, literal(_data(value)), unit, field.description or "", _is_marked(key, marks))
+            unit, text = shown_unit(word(field, "unit")), literal(_data(value))
+            yield Entry(key, text, unit, field.description or "", _is_marked(key, marks))
 
 
 def _is_list_of_tables(value: Any) -> bool:

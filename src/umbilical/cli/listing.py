@@ -17,7 +17,7 @@ def presets(
     ] = None,
     force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """The scenarios that come with the package.
+    """List, print or copy the scenarios that come along.
 
     \b
     examples
@@ -32,7 +32,7 @@ def presets(
 
         source, target = copy
         written = files.write(target, preset_text(source).encode(), force=force)
-        say(f"copied: {written}\n  change it, look at it with `umbilical show {target}`, run it with `umbilical run {target}`")
+        say(f"copied: {written}\n  next: change it; `umbilical show {target}`; `umbilical run {target}`")
     else:
         say(preset_text(name) if name else _descriptions())
 
@@ -50,7 +50,7 @@ def _first_sentence(text: str) -> str:
 
 
 def schema() -> None:
-    """The JSON Schema of scenario files, for editors.
+    """Print the JSON Schema of scenario files, for editors.
 
     \b
     example

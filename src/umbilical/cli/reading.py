@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import run_document, say, say_json, table
+from umbilical.cli.speech import run_document, say, say_json, shown_unit, table
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -19,7 +19,7 @@ def show(
     file: Annotated[str, Argument(help="A .nc result, a .toml scenario, or a preset's name.")],
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> None:
-    """What a result or a scenario says: a result's ending and metrics, a scenario's values and what is assumed.
+    """Show a result's metrics, or a scenario's values and what is assumed.
 
     \b
     examples
@@ -64,7 +64,7 @@ def compare(
     files: Annotated[list[Path], Argument(help="Two or more .nc results; ratios are to the first.")],
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> None:
-    """The metrics of several results side by side, with their ratios to the first.
+    """Compare the metrics of results, side by side with ratios.
 
     \b
     example
@@ -88,7 +88,7 @@ def _comparison(runs: list[Run], files: list[Path]) -> str:
     for name in names:
         first = runs[0].metrics.get(name)
         cells = [cell for run in runs for cell in _value_and_ratio(run.metrics.get(name), first)]
-        rows.append([name, METRICS[name].unit.removeprefix("1"), *cells])
+        rows.append([name, shown_unit(METRICS[name].unit), *cells])
     columns = [k for k in range(len(head)) if k != 3]  # the first result's ratio to itself
     return table([[row[k] for k in columns] for row in rows], right=range(2, len(columns)))
 

@@ -14,6 +14,7 @@ from umbilical.errors import Problem, ScenarioError
 
 if TYPE_CHECKING:
     from umbilical.run import Run
+    from umbilical.scenario import Scenario
 
 
 def run(
@@ -37,9 +38,7 @@ def run(
 
     Lists are numbered from 1. A diverged or interrupted run is stored and drawn as far as it went.
     """
-    from umbilical.admission import load
-
-    chosen = load(scenario, assignments(changes or []))
+    chosen = load_changed(scenario, changes or [])
     if out:
         check_target(out, ("nc",), force=force)
     if plot:
@@ -55,25 +54,31 @@ def run(
     return result.status.exit_code
 
 
-def assignments(texts: Sequence[str]) -> dict[str, Any]:
-    """Keys and values of all ``key=value``.
+def load_changed(source: str, changes: Sequence[str]) -> Scenario:
+    """A scenario with ``key=value`` changes.
 
     Raises:
-        ScenarioError: with every text that is not of that form.
+        FileError: there is no such scenario.
+        ScenarioError: with every problem of the changes and of what they make of the scenario.
     """
+    from umbilical.admission import load
     from umbilical.scenario.document import assignment
 
     found: dict[str, Any] = {}
     problems: list[Problem] = []
-    for text in texts:
+    for text in changes:
         try:
             key, value = assignment(text)
             found[key] = value
         except ScenarioError as error:
             problems += error.problems
+    try:
+        scenario = load(source, found)
+    except ScenarioError as error:
+        raise ScenarioError([*problems, *error.problems], error.origin) from error
     if problems:
-        raise ScenarioError(problems, "--set")
-    return found
+        raise ScenarioError(problems, source)
+    return scenario
 
 
 def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
@@ -92,7 +97,7 @@ def _report(run: Run, files: dict[str, str], source: str) -> str:
     lines = [run.summary()]
     if run.scenario.assumed:
         count = len(run.scenario.assumed)
-        lines.append(f"  assumed: {count} entries that no source gives; `umbilical show {source}` lists them with reasons")
+        lines.append(f"  assumed: {count} entries that no source gives; `umbilical show {source}` lists them")
     lines += [f"  {role}: {path}" for role, path in files.items()]
     if "result" not in files:
         lines.append("  nothing was stored; --out FILE.nc keeps the result")

@@ -40,7 +40,7 @@ def tell(text: str) -> None:
 
 def say_json(document: Mapping[str, Any]) -> None:
     """One JSON object, to stdout."""
-    say(json.dumps(plain(document), indent=2, ensure_ascii=False, allow_nan=False))
+    say(json.dumps(plain(document), indent=2, allow_nan=False))
 
 
 def plain(value: Any) -> Any:
@@ -88,6 +88,11 @@ def refusal(error: BaseException, text: str, code: int) -> dict[str, Any]:
         "scenario_hash": None,
         "notices": [],
     }
+
+
+def shown_unit(unit: str) -> str:
+    """A unit as it stands behind a number: nothing for a pure number."""
+    return "" if unit == "1" else unit
 
 
 def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:

@@ -29,5 +29,7 @@ def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
 
 def large_works(run: Run) -> list[str]:
     """Names of the works that would show."""
-    sizes = {str(name): float(abs(run[str(name)]).max()) for name in run.data.data_vars if str(name).startswith("work_")}
+    sizes = {
+        str(name): float(abs(run[str(name)]).max()) for name in run.data.data_vars if str(name).startswith("work_")
+    }
     return [name for name, size in sizes.items() if size > NEGLIGIBLE * max(sizes.values())]

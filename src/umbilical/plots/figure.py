@@ -80,8 +80,11 @@ def axis_label(array: xarray.DataArray) -> str:
 
 def draw(ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, dashed: bool = False) -> None:
     """One channel of time as a line. A dashed line lies on top, so that both show where they agree."""
-    style = {"linestyle": (0, (4, 3)), "linewidth": 1.2, "zorder": 3} if dashed else {"linewidth": 1.4}
-    ax.plot(array["time"].values, array.values, color=COLOURS[colour % len(COLOURS)], label=label or None, **style)
+    (line,) = ax.plot(array["time"].values, array.values, color=COLOURS[colour % len(COLOURS)], linewidth=1.4)
+    if label:
+        line.set_label(label)
+    if dashed:
+        line.set(linestyle=(0, (4, 3)), linewidth=1.2, zorder=3)
 
 
 def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:

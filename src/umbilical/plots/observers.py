@@ -33,7 +33,9 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
     """
     known = estimated(run)
     if channel not in known:
-        raise ValueError(f"{run.scenario.name}: {channel} was not estimated; estimated: {', '.join(known) or 'nothing'}")
+        raise ValueError(
+            f"{run.scenario.name}: {channel} was not estimated; estimated: {', '.join(known) or 'nothing'}"
+        )
     truth, estimate = run[channel], run[ESTIMATES[channel]]
     title = truth.attrs["long_name"].partition(":")[0]
     if "motor" in truth.dims:

@@ -29,7 +29,9 @@ def plot_overview(run: Run) -> Figure:
     panels: list[Panel] = [plot_tip, plot_cable, plot_positions]
     panels += [plot_thrust] if bool(run["thrust"].any()) else []
     panels += [partial(plot_motors, channel=name) for name in ("motor_speed", "motor_voltage") if motors]
-    panels += [partial(plot_observers, channel=name) for name in ("tip_velocity", "disturbance") if name in estimated(run)]
+    panels += [
+        partial(plot_observers, channel=name) for name in ("tip_velocity", "disturbance") if name in estimated(run)
+    ]
     panels += [plot_allocation] if adapted(run) else []
     head = [panels.pop(panels.index(plot_cable))] if len(panels) % 2 else []
     return page(run, [[panel] for panel in head] + pairs(panels) + [[plot_energy]])
