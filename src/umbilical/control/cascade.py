@@ -129,7 +129,9 @@ def make_settings(scenario: Scenario) -> CascadeSettings:
     control = scenario.control
     outer_period = control.outer_period or control.period
     return CascadeSettings(
-        _outer_settings(scenario, outer_period), _motor_settings(scenario, outer_period), round(outer_period / control.period)
+        _outer_settings(scenario, outer_period),
+        _motor_settings(scenario, outer_period),
+        round(outer_period / control.period),
     )
 
 

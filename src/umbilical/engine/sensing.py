@@ -71,7 +71,10 @@ class Dice:
     def __init__(self, sensors: Sensors, seed: int) -> None:
         self._sensors, self._drawn = sensors, 0
         noise, lost = np.random.SeedSequence(seed).spawn(2)
-        self._noise, self._lost = np.random.Generator(np.random.Philox(noise)), np.random.Generator(np.random.Philox(lost))
+        self._noise, self._lost = (
+            np.random.Generator(np.random.Philox(noise)),
+            np.random.Generator(np.random.Philox(lost)),
+        )
 
     def draw(self, updates: int) -> np.ndarray:
         """Noise of the next updates, shape (updates, channels), NaN where a reading is lost; none if perfect."""
@@ -135,9 +138,7 @@ def spoil(s: Sensors, memory: SensorState, noise: np.ndarray, readings: Readings
 
 
 @glue
-def sense(
-    s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings
-) -> None:
+def sense(s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings) -> None:
     """One sample of all sensors into ``readings``; ``row`` is the update's row in ``noise``."""
     read_truth(state, readings)
     if not s.perfect:

@@ -24,7 +24,9 @@ def initial_displacement(scenario: Scenario) -> np.ndarray:
         case GaussianShape():
             nodes = shape.amplitude * np.exp(-(((above - shape.distance) / shape.width) ** 2))
         case StaticShape():
-            nodes = static_deflection(scenario, above, length, float(scenario.environment.gravity - motion.acceleration))
+            nodes = static_deflection(
+                scenario, above, length, float(scenario.environment.gravity - motion.acceleration)
+            )
         case TableShape():
             nodes = np.asarray(spline(shape.positions, shape.displacements)(sigma))
         case _:

@@ -57,7 +57,9 @@ def motor_constants(motor: Any) -> MotorConstants:
     )
 
 
-def steady_speed(motor: Any, voltage: float, voltage_disturbance: float = 0.0, torque_disturbance: float = 0.0) -> float:
+def steady_speed(
+    motor: Any, voltage: float, voltage_disturbance: float = 0.0, torque_disturbance: float = 0.0
+) -> float:
     """Speed at which a motor settles under constant voltage, rad/s: the root of (15) at rest.
 
     ``w = sgn(G) (-b + sqrt(b^2 + 4 K_Q |G|)) / (2 K_Q)`` with ``G = K_t (U + d2)/R + d1`` and

@@ -18,7 +18,6 @@ import numpy as np
 from umbilical.compile import kernel
 from umbilical.scenario.control import AdaptiveAllocation, Allocation
 
-
 # Rows of Adaptation.form.
 DECAY, GAIN, LOWER, UPPER = range(4)
 
