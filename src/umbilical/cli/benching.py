@@ -32,8 +32,8 @@ def bench(
     if as_json:
         say_json(found.document())
     else:
-        rows = [(r.name, f"{r.seconds:.4g}", _times(r.speed), r.note) for r in found.rows]
-        say(f"{found.headline}\n\n{table([('', 's', 'x real time', ''), *rows], right=(1, 2))}")
+        rows = [(r.name, f"{r.value:.4g}", r.unit, _times(r.speed), r.note) for r in found.rows]
+        say(f"{found.headline}\n\n{table([('', '', '', 'x real time', ''), *rows], right=(1, 3))}")
 
 
 def _times(speed: float | None) -> str:

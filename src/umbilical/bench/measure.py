@@ -1,0 +1,192 @@
+"""The rows of ``umbilical bench``, all measured in one go."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from statistics import median
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
+
+from umbilical.bench.machine import machine, peak_of_children
+
+if TYPE_CHECKING:
+    from umbilical.scenario import Scenario
+
+Progress = Callable[[float], None]
+PYTHON_LOOP = 5.0
+"""Seconds simulated in the Python loop; its time per simulated second does not change over a run."""
+REFERENCE = 2.0
+"""Seconds simulated by the plain script."""
+VARIANTS: dict[str, dict[str, Any]] = {
+    "full": {},
+    "unstored": {"output.interval": 50.0},
+    "ideal": {"ideal_thruster": True},
+    "idle": {"control.law.kind": "none"},
+    "bare": {"control.law.kind": "none", "ideal_thruster": True},
+}
+"""The paper's scenario with parts switched off: what a part costs is what its absence saves."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One measurement.
+
+    Attributes:
+        name: what was measured.
+        value: in ``unit``.
+        unit: ``s``, ``ms`` or ``MB``.
+        speed: simulated seconds per second, where that has a sense.
+        note: how it was measured.
+    """
+
+    name: str
+    value: float
+    unit: str
+    speed: float | None = None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Bench:
+    """All rows, and the machine they belong to."""
+
+    machine: Mapping[str, str | int]
+    rows: tuple[Row, ...]
+
+    @property
+    def headline(self) -> str:
+        """The machine in one line."""
+        return ", ".join(f"{name} {value}" for name, value in self.machine.items())
+
+    def document(self) -> dict[str, Any]:
+        """As plain data."""
+        return {"machine": dict(self.machine), "rows": [asdict(row) for row in self.rows]}
+
+
+def measure_all(
+    repeat: int = 15, *, cold: bool = False, progress: Callable[[float], None] = lambda share: None
+) -> Bench:
+    """Measure every row.
+
+    Args:
+        repeat: runs of each variant of the compiled loop; medians count.
+        cold: also compile all kernels anew, in another process with an empty cache.
+        progress: called with the share done, 0 to 1.
+
+    Returns:
+        The rows; nothing is stored.
+    """
+    # Processes come first: what they need of memory is read from this process's children, while it is still small.
+    rows = _processes(cold)
+    progress(0.2)
+    rows = [*_compiled(repeat, progress), *_others(), *rows]
+    progress(1.0)
+    return Bench(machine(), tuple(rows))
+
+
+def _compiled(repeat: int, progress: Progress) -> list[Row]:
+    """The compiled loop as a whole and in parts."""
+    from umbilical.admission import load
+
+    scenario = load("paper")
+    times = _times({name: scenario.replace(change) for name, change in VARIANTS.items()}, repeat, progress)
+    total = times["full"]["simulate_s"]
+    note = f"median of {repeat}, {scenario.grid.elements} elements, period {1e3 * scenario.control.period:g} ms"
+    head = Row("compiled loop, 50 s", 1e3 * total, "ms", 50.0 / total, note)
+    parts = [Row(f"  {name}", 1e3 * part, "ms", note=f"{part / total:.0%}") for name, part in _parts(times).items()]
+    around = [
+        Row("before it: admission, set-up", 1e3 * times["full"]["prepare_s"], "ms"),
+        Row("after it: arrays, energy audit", 1e3 * times["full"]["assemble_s"], "ms"),
+    ]
+    return [head, *parts, *around]
+
+
+def _times(
+    variants: Mapping[str, Scenario], repeat: int, progress: Callable[[float], None]
+) -> dict[str, dict[str, float]]:
+    """Median times of every variant; the variants take turns, so that none has the quiet minute."""
+    taken: dict[str, list[dict[str, float]]] = {name: [] for name in variants}
+    for round_ in range(repeat + 1):
+        for name, scenario in variants.items():
+            taken[name].append(_timed(scenario))
+        progress(0.2 + 0.5 * round_ / repeat)
+    # The first round loads and warms up.
+    return {name: {key: median(t[key] for t in all_[1:]) for key in all_[0]} for name, all_ in taken.items()}
+
+
+def _timed(scenario: Scenario) -> dict[str, float]:
+    from umbilical.engine.simulate import simulate
+
+    begun = perf_counter()
+    timing = dict(simulate(scenario).timing)
+    whole = perf_counter() - begun
+    timing["assemble_s"] = whole - timing["prepare_s"] - timing["simulate_s"]
+    timing["loop_s"] = timing["simulate_s"] - timing["outside_s"]
+    return timing
+
+
+def _parts(times: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
+    """Seconds of each part of the loop; they add up to the whole."""
+    loop = {name: taken["loop_s"] for name, taken in times.items()}
+    storing = loop["full"] - loop["unstored"]
+    outer = loop["ideal"] - loop["bare"]
+    return {
+        "outside world, sampled": times["full"]["outside_s"],
+        "plant: cable, ROV, sensors, measures": loop["bare"] - storing,
+        "plant: motors": loop["idle"] - loop["bare"],
+        "outer law and observers": outer,
+        "motor loops and allocation": loop["full"] - loop["idle"] - outer,
+        "storing samples": storing,
+    }
+
+
+def _others() -> list[Row]:
+    """The same run by other means."""
+    import numpy as np
+
+    from umbilical.admission import load
+    from umbilical.bench.reference import tip_displacement
+    from umbilical.control.cascade import Cascade
+    from umbilical.engine.simulate import simulate
+
+    short = load("paper").replace({"duration": PYTHON_LOOP})
+    simulate(short.replace({"duration": 0.1}), Cascade(short))
+    python = simulate(short, Cascade(short)).timing["simulate_s"] * 50.0 / PYTHON_LOOP
+    begun = perf_counter()
+    tip_displacement(np.array([0.0, REFERENCE]))
+    plain = (perf_counter() - begun) * 50.0 / REFERENCE
+    called = f"the controller is called from Python; {PYTHON_LOOP:g} s, scaled"
+    script = f"100 nodes of second order, RK45, continuous law; {REFERENCE:g} s, scaled"
+    return [
+        Row("Python loop, 50 s", python, "s", 50.0 / python, called),
+        Row("numpy + scipy solve_ivp, 50 s", plain, "s", 50.0 / plain, script),
+    ]
+
+
+def _processes(cold: bool) -> list[Row]:
+    """Whole processes, as a shell starts them."""
+    run = ("run", "paper", "--json")
+    _process(run)  # compiles if need be, and brings the files into the disk cache
+    rows = [
+        Row("umbilical run paper --json", _process(run), "s", note="whole process, kernels from disk"),
+        Row("  its peak memory", peak_of_children(), "MB"),
+        Row("umbilical --help", _process(("--help",)), "s", note="whole process"),
+    ]
+    if cold:
+        with tempfile.TemporaryDirectory(prefix="umbilical-bench-") as folder:
+            seconds = _process(run, UMBILICAL_CACHE=folder)
+        rows.append(Row("umbilical run paper --json, first ever", seconds, "s", note="kernels compiled, empty cache"))
+    return rows
+
+
+def _process(arguments: tuple[str, ...], **environment: str) -> float:
+    """Seconds one command takes."""
+    command = [sys.executable, "-m", "umbilical", *arguments]
+    begun = perf_counter()
+    subprocess.run(command, env={**os.environ, **environment}, stdout=subprocess.DEVNULL, check=True)
+    return perf_counter() - begun
