@@ -19,7 +19,9 @@ from typing import Any
 import llvmlite
 import numba
 import numpy
-from numba import config
+from numba.core import config as numba_config
+
+config: Any = numba_config  # its settings are made at run time, unknown to type checkers
 
 _FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
 _PACKAGE = Path(__file__).parent
@@ -65,12 +67,12 @@ def is_warm() -> bool:
     return any(cache_folder().rglob("*run_steps*.nbc"))
 
 
-def _compiled(function: Callable[..., Any], **options: bool) -> Any:
+def _compiled(function: Callable[..., Any], **special: Any) -> Any:
+    njit: Any = numba.njit  # its last options are not in its annotations
     before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
     try:
-        return numba.njit(
-            function, cache=True, nogil=True, error_model="numpy", _nrt=False, no_cfunc_wrapper=True, **options
-        )
+        common = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": False}
+        return njit(**common, **special)(function)
     finally:
         config.CACHE_DIR = before
 

@@ -78,8 +78,9 @@ def _sound_sections(data: Mapping[str, Any], problems: Iterable[Problem]) -> dic
     """The top-level values without a problem of their own, defaults included."""
     broken = {problem.key.split(".")[0] for problem in problems}
     sound = {name: field for name, field in Scenario.model_fields.items() if name not in broken}
+    annotated: Any = Annotated  # built at run time, which type checkers cannot follow
     return {
-        name: TypeAdapter(Annotated[field.annotation, field]).validate_python(freeze(data[name]))
+        name: TypeAdapter(annotated[field.annotation, field]).validate_python(freeze(data[name]))
         if name in data
         else field.get_default(call_default_factory=True)
         for name, field in sound.items()

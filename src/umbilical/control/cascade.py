@@ -128,11 +128,8 @@ def make_settings(scenario: Scenario) -> CascadeSettings:
     """Settings of a scenario's built-in controller, from its nominal constants."""
     control = scenario.control
     outer_period = control.outer_period or control.period
-    return CascadeSettings(
-        _outer_settings(scenario, outer_period),
-        _motor_settings(scenario, outer_period),
-        round(outer_period / control.period),
-    )
+    outer, motors = _outer_settings(scenario, outer_period), _motor_settings(scenario, outer_period)
+    return CascadeSettings(outer, motors, round(outer_period / control.period))
 
 
 def _outer_settings(scenario: Scenario, period: float) -> Outer:

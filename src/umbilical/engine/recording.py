@@ -45,9 +45,8 @@ PER_MOTOR = (
 )  # fmt: skip
 
 # Columns of Tally.measures, and its rows.
-QUARTER, MID, THREE_QUARTER, TIP, TIP_AFTER_FAULT, COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT = range(
-    10
-)
+QUARTER, MID, THREE_QUARTER, TIP, TIP_AFTER_FAULT = range(5)
+COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT = range(5, 10)
 PEAK, SQUARES = range(2)
 STEEPEST = 1.0
 """Beyond this slope the model of small angles has ended, and the run with it."""

@@ -70,11 +70,8 @@ class Dice:
 
     def __init__(self, sensors: Sensors, seed: int) -> None:
         self._sensors, self._drawn = sensors, 0
-        noise, lost = np.random.SeedSequence(seed).spawn(2)
-        self._noise, self._lost = (
-            np.random.Generator(np.random.Philox(noise)),
-            np.random.Generator(np.random.Philox(lost)),
-        )
+        streams = np.random.SeedSequence(seed).spawn(2)
+        self._noise, self._lost = (np.random.Generator(np.random.Philox(stream)) for stream in streams)
 
     def draw(self, updates: int) -> np.ndarray:
         """Noise of the next updates, shape (updates, channels), NaN where a reading is lost; none if perfect."""

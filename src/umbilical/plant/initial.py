@@ -24,9 +24,8 @@ def initial_displacement(scenario: Scenario) -> np.ndarray:
         case GaussianShape():
             nodes = shape.amplitude * np.exp(-(((above - shape.distance) / shape.width) ** 2))
         case StaticShape():
-            nodes = static_deflection(
-                scenario, above, length, float(scenario.environment.gravity - motion.acceleration)
-            )
+            net_gravity = scenario.environment.gravity - float(motion.acceleration)
+            nodes = static_deflection(scenario, shape.force, above, length, net_gravity)
         case TableShape():
             nodes = np.asarray(spline(shape.positions, shape.displacements)(sigma))
         case _:
@@ -35,13 +34,14 @@ def initial_displacement(scenario: Scenario) -> np.ndarray:
     return nodes
 
 
-def static_deflection(scenario: Scenario, above: np.ndarray, length: float, net_gravity: float) -> np.ndarray:
+def static_deflection(
+    scenario: Scenario, force: float, above: np.ndarray, length: float, net_gravity: float
+) -> np.ndarray:
     """Deflection under a steady force P on the ROV: ``P/(rho g) ln((m + rho l)/(m + rho (l - x)))``, m.
 
     ``above`` is the distance from the ROV, m. With constant tension it is ``P x / T``.
     """
     mass, hanging = scenario.payload.mass, scenario.cable.hanging_density
-    force = scenario.initial.force if isinstance(scenario.initial, StaticShape) else 0.0
     if hanging == 0.0:
         return force * (length - above) / (mass * net_gravity)
     # log1p keeps its digits when the cable is light against the ROV.
