@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import runpy
+import sys
 import tomllib
 from collections import Counter
 from pathlib import Path
@@ -19,7 +20,7 @@ from umbilical.scenario.document import extend
 ROOT = Path(__file__).parents[2]
 DOCS = sorted((ROOT / "docs").glob("*.md"))
 SOURCE = ROOT / "src" / "umbilical"
-WRITER = runpy.run_path(str(ROOT / "tools" / "make_docs.py"))
+WRITER = runpy.run_path(str(ROOT / "tools" / "make_docs"))
 
 each_page = pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)
 
@@ -34,20 +35,17 @@ def anchors(page: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
-def test_generated_pages_are_current() -> None:
-    """If this fails: .venv/bin/python tools/make_docs.py"""
-    assert WRITER["stale"]() == []
+@pytest.mark.parametrize("name", WRITER["PAGES"])
+def test_generated_pages_are_current(name: str) -> None:
+    """If this fails: .venv/bin/python tools/make_docs"""
+    assert WRITER["is_current"](name)
 
 
-def test_a_page_that_is_not_current_is_noticed(tmp_path: Path) -> None:
-    for name, make in WRITER["PAGES"].items():
-        (tmp_path / name).write_text(make() + " ", encoding="utf-8")
-    stale = WRITER["stale"]
-    stale.__globals__["DOCS"] = tmp_path
-    try:
-        assert stale() == list(WRITER["PAGES"])
-    finally:
-        stale.__globals__["DOCS"] = ROOT / "docs"
+@pytest.mark.parametrize("name", WRITER["PAGES"])
+def test_a_page_that_is_not_current_is_noticed(name: str, tmp_path: Path) -> None:
+    assert not WRITER["is_current"](name, tmp_path)
+    (tmp_path / name).write_text(WRITER["PAGES"][name]() + " ", encoding="utf-8")
+    assert not WRITER["is_current"](name, tmp_path)
 
 
 @each_page
@@ -66,17 +64,17 @@ def test_links_lead_somewhere(page: Path) -> None:
 @each_page
 def test_files_named_are_there(page: Path) -> None:
     """`plant/cable.py` stands for src/umbilical/plant/cable.py, a longer path for itself."""
-    named = set(re.findall(r"`((?:[\w.]+/)+[\w.]*|[\w/.]+\.(?:py|toml|md|json))`", page.read_text(encoding="utf-8")))
+    named = set(re.findall(r"`((?:[\w.]+/)+|[\w/.]+\.(?:py|toml|md|json))`", page.read_text(encoding="utf-8")))
     users = {"my.toml", "my_law.py"}
     assert sorted(n for n in named - users if not any((root / n).exists() for root in (ROOT, SOURCE))) == []
 
 
 @each_page
 def test_functions_named_with_their_file_are_in_it(page: Path) -> None:
-    """`plant/cable.py: evaluate, drift` names functions, classes or constants of that file."""
+    """`plant/cable.py: evaluate, drift` names functions, classes or constants of that file, or tests."""
     missing = []
     for name, things in re.findall(r"`([\w/]+\.py): ([\w, ]+)`", page.read_text(encoding="utf-8")):
-        text = (SOURCE / name).read_text(encoding="utf-8")
+        text = (ROOT / name if name.startswith("tests/") else SOURCE / name).read_text(encoding="utf-8")
         missing += [
             f"{name}: {t}" for t in things.split(", ") if not re.search(rf"^(def|class) {t}\b|^{t}\b", text, re.M)
         ]
@@ -115,12 +113,13 @@ def test_every_word_means_one_thing(table: dict[str, umbilical.quantities.Quanti
 
 def test_every_parameter_stands_at_a_key() -> None:
     """The one that does not is a dimension of the results."""
-    places = WRITER["keys_by_meaning"]()
+    places = sys.modules["scenario"].keys_by_meaning()
     assert [name for name, q in PARAMETERS.items() if q.meaning not in places] == ["sigma"]
 
 
 def test_every_channel_and_metric_is_in_a_run() -> None:
-    run = umbilical.simulate(umbilical.load("paper", {"duration": 0.05}))
+    """The metric after a fault is only there with one."""
+    run = umbilical.simulate(umbilical.load("paper-dead", {"duration": 0.05, "faults.1.start": 0.02}))
     held = {str(name) for name in run.data.data_vars if not str(name).startswith("metric_")}
     assert held == set(CHANNELS)
     assert set(run.metrics) == set(METRICS)
