@@ -162,7 +162,7 @@ def _motor_settings(scenario: Scenario, outer_period: float) -> Motors:
     fields = {name: getattr(loop, name) if loop else 1.0 for name in Backstepping._fields}
     gain = loop.observer_gain if loop else 1.0
     return Motors(
-        loop is not None and control.law.kind != "none" and not scenario.ideal_thruster,
+        loop is not None and not scenario.ideal_thruster,
         np.array([coefficients, limits], dtype=float),
         make_adaptation(control.allocation, len(believed), outer_period),
         np.array([motor_constants(m) for m in believed], dtype=float).reshape(len(believed), 7),
@@ -179,6 +179,12 @@ def _command_filter(loop: MotorLoop | None, period: float) -> CommandFilter:
 
 def _believed(nominal: float | None, truth: float) -> float:
     return truth if nominal is None else nominal
+
+
+def with_known_factors(settings: CascadeSettings) -> CascadeSettings:
+    """The same without adaptation, which needs the u_a that only the built-in boundary law computes."""
+    adaptation = settings.motors.adaptation._replace(enabled=False)
+    return settings._replace(motors=settings.motors._replace(adaptation=adaptation))
 
 
 def make_state(scenario: Scenario) -> CascadeState:
@@ -205,12 +211,13 @@ def start(settings: CascadeSettings, state: CascadeState, readings: Readings) ->
 @glue
 def update(settings: CascadeSettings, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """One update: the outer law on its own samples, the motor loops on every one."""
-    if settings.outer.law != NONE and state.updates[0] % settings.outer_every == 0:
-        update_outer(settings.outer, state, readings, decision)
+    if settings.outer.law != NONE:
+        if state.updates[0] % settings.outer_every == 0:
+            update_outer(settings.outer, state, readings, decision)
+            if settings.motors.driven:
+                allocate(settings.motors, state, decision)
         if settings.motors.driven:
-            allocate(settings.motors, state, decision)
-    if settings.motors.driven:
-        update_motors(settings.motors, state, readings, decision)
+            update_motors(settings.motors, state, readings, decision)
     state.updates[0] += 1
 
 

@@ -174,7 +174,7 @@ class Python:
         except Exception as error:
             name = type(self._controller).__name__
             raise ControllerError(f"{name} failed at t = {t:g} s: {type(error).__name__}: {error}") from error
-        check_command(command, world, t)
+        check_command(command, world, t, can_drive=self._drive.motors.driven)
         world.decision.outer[THRUST_COMMAND] = np.nan if command.thrust is None else command.thrust
         if command.voltage is not None:
             world.decision.motors[VOLTAGE] = command.voltage
@@ -183,8 +183,8 @@ class Python:
             cascade.allocate(self._drive.motors, self._memory, world.decision)
 
 
-def check_command(command: object, world: World, t: float) -> None:
-    """Refuse what is not a command, before it reaches the plant.
+def check_command(command: object, world: World, t: float, *, can_drive: bool) -> None:
+    """Refuse what is not a command, before it reaches the plant; ``can_drive``: there are motor loops for a thrust.
 
     Raises:
         ControllerError: not a :class:`Command`, neither thrust nor voltage, or the wrong shape.
@@ -195,6 +195,8 @@ def check_command(command: object, world: World, t: float) -> None:
     if command.thrust is None and (command.voltage is None or world.plant.ideal):
         need = "thrust (the thruster is ideal)" if world.plant.ideal else "thrust or voltage"
         raise ControllerError(f"{where} gives no {need}")
+    if command.voltage is None and not world.plant.ideal and not can_drive:
+        raise ControllerError(f"{where} gives thrust only; add control.motor_loop, or set ideal_thruster = true")
     if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.shape[1],):
         shape, motors = np.shape(command.voltage), world.decision.motors.shape[1]
         raise ControllerError(f"{where} gives voltages of shape {shape}; there are {motors} motors")

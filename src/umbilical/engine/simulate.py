@@ -121,11 +121,12 @@ def _set_up(scenario: Scenario, controller: Controller | None) -> Setup:
         make_decision(motors),
     )
     record = _record(scenario, clock)
-    brain = cascade.make_settings(scenario), cascade.make_state(scenario)
+    settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
     if controller is None:
-        decider: loop.BuiltIn | loop.Python = loop.BuiltIn(world, *brain, record)
+        decider: loop.BuiltIn | loop.Python = loop.BuiltIn(world, settings, memory, record)
     else:
-        decider = loop.Python(world, *brain, record, controller, period, every, scenario.sensors.ideal_velocity)
+        drive, ideal = cascade.with_known_factors(settings), scenario.sensors.ideal_velocity
+        decider = loop.Python(world, drive, memory, record, controller, period, every, ideal)
     return Setup(clock, world, record, Dice(sensors, scenario.seed), decider)
 
 
