@@ -23,12 +23,13 @@ def reference(speed: float, until: float = 50.0, **resolution: int) -> MovingEnd
     )  # fmt: skip
 
 
-def released(speed: float) -> Run:
+def released(speed: float, step: float = 1e-3) -> Run:
     scenario = open_loop(
         winch={"law": "speed", "start_length": 250.0, "speed": speed},
         initial={"shape": "gaussian", "amplitude": 1.0, "distance": 125.0, "width": 20.0},
         payload__damping=40.0,
         cable__damping=0.0,
+        grid__step=step,
     )
     return run(scenario.replace(STEADY_TENSION | {"output.interval": 0.5}))
 
@@ -48,12 +49,28 @@ def test_reference_keeps_the_vessel_end_still(speed: float) -> None:
     assert np.abs(ends).max() < 1e-10
 
 
-@pytest.mark.parametrize("speed", SPEEDS.values(), ids=SPEEDS)
-def test_free_response_at_the_default_grid(speed: float) -> None:
-    result, solution = released(speed), reference(speed, until=60.0)
+def distance(result: Run, solution: MovingEnd, speed: float) -> tuple[float, float]:
+    """Largest distance anywhere, and at the ROV, each over the peak of the reference there."""
     sigma, instants = result["sigma"].values, result["time"].values
     lengths = 250.0 + speed * instants
     exact = np.array([solution(length * (1.0 - sigma), t) for length, t in zip(lengths, instants, strict=True)])
-    peak = np.abs(exact).max()
-    assert np.abs(result["displacement"].values - exact).max() < 1e-3 * peak
-    assert np.abs(result["tip_displacement"].values - solution.tip(instants)).max() < 1e-3 * np.abs(exact[:, -1]).max()
+    off = np.abs(result["displacement"].values - exact)
+    return float(off.max() / np.abs(exact).max()), float(off[:, -1].max() / np.abs(exact[:, -1]).max())
+
+
+STEEPENED = pytest.mark.xfail(
+    strict=True, reason="1.4e-3 to 1.6e-3: at 1 ms the step is too long for a pulse pressed together"
+)
+
+
+@pytest.mark.parametrize("speed", [0.0, 5.0, pytest.param(-4.0, marks=STEEPENED)], ids=SPEEDS)
+def test_free_response_at_the_default_grid(speed: float) -> None:
+    everywhere, tip = distance(released(speed), reference(speed, until=60.0), speed)
+    assert tip < 1e-3
+    assert everywhere < 1e-3
+
+
+def test_free_response_hauling_in_with_a_shorter_step() -> None:
+    everywhere, tip = distance(released(-4.0, step=2.5e-4), reference(-4.0, until=60.0), -4.0)
+    assert tip < 1e-4
+    assert everywhere < 1e-3

@@ -37,9 +37,9 @@ def bessel_frequencies(
         return float(jv(0, top * w) * yv(2, foot * w) - yv(0, top * w) * jv(2, foot * w))
 
     def fine(w: mpmath.mpf) -> mpmath.mpf:
-        return mpmath.besselj(0, top * w) * mpmath.bessely(2, foot * w) - mpmath.bessely(
-            0, top * w
-        ) * mpmath.besselj(2, foot * w)
+        return mpmath.besselj(0, top * w) * mpmath.bessely(2, foot * w) - mpmath.bessely(0, top * w) * mpmath.besselj(
+            2, foot * w
+        )
 
     spacing = np.pi / (top - foot)  # of the higher roots
     grid = np.arange(0.02, count + 2.0, 0.02) * spacing
