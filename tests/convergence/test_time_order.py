@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -18,7 +20,7 @@ def test_order_in_the_step(drift: float) -> None:
     """Differences of successive solutions on one grid: the grid's own error drops out."""
     solutions = [solve(drift, 8, step) for step in STEPS]
     for field in range(2):
-        changes = [b[field] - a[field] for a, b in zip(solutions, solutions[1:], strict=False)]
+        changes = [b[field] - a[field] for a, b in pairwise(solutions)]
         for observed in (orders([np.abs(c).max() for c in changes]), orders([abs(c[-1]) for c in changes])):
             assert observed[-1] == pytest.approx(2.0, abs=0.1)
 

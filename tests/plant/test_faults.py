@@ -22,7 +22,10 @@ BEFORE = float(np.nextafter(10.0, 0.0))
     ],
 )
 def test_start_on_the_instant(fault: Fault, effectiveness: float, stuck: float) -> None:
-    after, before = faults.effect([fault], 1, "thrust", [BEFORE, 10.0]), faults.effect([fault], 1, "thrust", 10.0, "left")
+    after, before = (
+        faults.effect([fault], 1, "thrust", [BEFORE, 10.0]),
+        faults.effect([fault], 1, "thrust", 10.0, "left"),
+    )
     assert [part.tolist() for part in after] == [[1.0, effectiveness], [0.0, stuck]]
     assert [part.item() for part in before] == [1.0, 0.0]
     assert faults.jumps([fault], 10.0) == (10.0,)

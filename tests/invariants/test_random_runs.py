@@ -1,0 +1,103 @@
+"""Random admissible runs: the power balance closes, and nothing that is not a number passes for a result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import umbilical
+from tests.support.scenarios import open_loop, run, sine
+from umbilical import Status
+from umbilical.errors import ScenarioError
+
+few = settings(
+    max_examples=12, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
+)
+
+
+def between(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(low, high, allow_nan=False, allow_subnormal=False)
+
+
+waves = st.builds(sine, between(-1.0, 1.0), between(0.2, 3.0), between(-3.0, 3.0))
+quintic = st.builds(
+    lambda start, way: {"law": "quintic", "start_length": start, "end_length": start + way, "duration": 5.0},
+    between(90.0, 150.0), between(-12.0, 12.0),
+)  # fmt: skip
+steady = st.builds(
+    lambda start, v: {"law": "speed", "start_length": start, "speed": v}, between(90.0, 150.0), between(-4.0, 4.0)
+)
+to_and_fro = st.builds(
+    lambda start, amplitude, w: {"law": "cosine", "start_length": start, "amplitude": amplitude, "frequency": w},
+    between(90.0, 150.0), between(-3.0, 3.0), between(0.2, 1.0),
+)  # fmt: skip
+
+
+@few
+@given(
+    winch=st.one_of(quintic, steady, to_and_fro),
+    force=waves,
+    load=waves,
+    vessel=waves,
+    damping=between(0.0, 0.2),
+    mass=between(50.0, 1000.0),
+)
+def test_power_balance_closes(
+    winch: dict[str, Any],
+    force: dict[str, Any],
+    load: dict[str, Any],
+    vessel: dict[str, Any],
+    damping: float,
+    mass: float,
+) -> None:
+    result = run(
+        open_loop(
+            winch=winch,
+            duration=5.0,
+            grid__elements=16,
+            payload__mass=mass,
+            cable__damping=damping,
+            environment__payload_force=[force | {"amplitude": 100.0 * force["amplitude"]}],
+            environment__cable_load=[{"profile": {"shape": "sine", "half_waves": 2}, "signal": [load]}],
+            environment__vessel_motion=[vessel | {"amplitude": 0.3 * vessel["amplitude"]}],
+            environment__vessel_ramp=2.0,
+        )
+    )
+    assert result.metrics["energy_balance_residual"] < 1e-4
+
+
+@few
+@given(
+    preset=st.sampled_from(["paper", "paper-adaptive", "paper-stuck-adaptive", "haul-in", "crosscheck-pd"]),
+    slope_gain=between(0.0, 80.0),
+    damping_gain=between(1e2, 9e4),
+    force=between(-1e5, 1e5),
+    noise=between(0.0, 1e-2),
+    dropout=between(0.0, 0.9),
+)
+def test_completed_means_finite(
+    preset: str, slope_gain: float, damping_gain: float, force: float, noise: float, dropout: float
+) -> None:
+    law = (
+        {}
+        if preset == "crosscheck-pd"
+        else {"control.law.slope_gain": slope_gain, "control.law.damping_gain": damping_gain}
+    )
+    sensor = {"sensors.tip_slope.noise": noise, "sensors.tip_displacement.dropout": dropout}
+    changes = {"grid.elements": 8, "duration": 2.0, "environment.payload_force": [{"kind": "constant", "value": force}]}
+    try:
+        scenario = umbilical.load(preset, law | sensor | changes)
+    except ScenarioError:
+        return  # refused before the first step: nothing passes for a result
+    result = umbilical.simulate(scenario)
+    assert result.status in (Status.COMPLETED, Status.DIVERGED)
+    finite = all(np.isfinite(result[name].values).all() for name in result.data.data_vars)
+    assert finite or result.status is Status.DIVERGED
+    if result.status is Status.COMPLETED:
+        assert result.metrics["slope_peak"] <= 1.0
+    else:
+        assert result.reason
+        assert result["time"].values[-1] <= result.end_time < 2.0 + 1e-9
