@@ -13,7 +13,7 @@ from umbilical import Run
 INPUTS: list[dict[str, Any]] = [
     {"payload_force": [constant(100.0)]},
     {"cable_load": [{"profile": {"shape": "gaussian", "center": 0.3, "width": 0.2}, "signal": [sine(3.0, 2.0)]}]},
-    {"vessel_motion": [sine(0.5, 1.3)], "vessel_ramp": 2.0},
+    {"vessel_motion": [sine(0.5, 1.3)]},
 ]
 FIELDS = ("displacement", "velocity", "tip_slope", "vessel_slope")
 
@@ -27,6 +27,7 @@ def response(lengths: tuple[float, float], start: float, inputs: list[dict[str, 
         grid__elements=8,
         cable__damping=0.05,
         payload__damping=5.0,
+        environment__vessel_ramp=2.0,  # in every part: forces are evaluated anew where it ends
     )
     return run(scenario.replace(environment))
 

@@ -40,7 +40,7 @@ def test_mirror_image(preset: str) -> None:
     right, left = mirrored(1.0, preset), mirrored(-1.0, preset)
     assert np.abs(right["displacement"].values).max() > 0.1
     for name in map(str, right.data.data_vars):
-        if name in EVEN or name.startswith("metric_") and name != "metric_tip_end":
+        if name in EVEN or (name.startswith("metric_") and name != "metric_tip_end"):
             np.testing.assert_array_equal(left[name].values, right[name].values, name)
         elif name == "kappa":  # kappa_0 multiplies the command and is even, the others are added to it
             np.testing.assert_array_equal(left[name].values[:, 0], right[name].values[:, 0], name)
