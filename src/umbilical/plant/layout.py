@@ -33,7 +33,7 @@ def to_field(nodal: np.ndarray) -> np.ndarray:
 def to_nodal(field: np.ndarray) -> np.ndarray:
     """Values ordered from vessel to ROV, shape (..., 4 n + 1), of a field (..., 4, n + 1)."""
     count = node_count(field.shape[-1] - 1)
-    flat = np.swapaxes(field, -1, -2).reshape(*field.shape[:-2], -1)
+    flat = np.swapaxes(field, -1, -2).reshape(*field.shape[:-2], DEGREE * field.shape[-1])
     return np.ascontiguousarray(flat[..., :count])
 
 
