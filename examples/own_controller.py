@@ -6,7 +6,7 @@ import umbilical
 class Damper:
     """Thrust against the velocity; the scenario's allocation and motor loops turn it into voltages.
 
-    The velocity is the rate of a first-order low-pass of the displacement: (y - filtered) / time_constant.
+    The velocity is the rate of a first-order low-pass of the displacement, the state: (y - state) / time_constant.
     """
 
     period = 0.005  # s; a multiple of control.period
@@ -17,10 +17,10 @@ class Damper:
         """The filter starts where the ROV is."""
         return measurement.tip_displacement
 
-    def update(self, t: float, measurement: umbilical.Measurement, filtered: float) -> tuple[umbilical.Command, float]:
+    def update(self, t: float, measurement: umbilical.Measurement, state: float) -> tuple[umbilical.Command, float]:
         """Thrust (N) from now on, and the filter's new state (m)."""
-        velocity = (measurement.tip_displacement - filtered) / self.time_constant
-        return umbilical.Command(thrust=-self.gain * velocity), filtered + self.period * velocity
+        velocity = (measurement.tip_displacement - state) / self.time_constant
+        return umbilical.Command(thrust=-self.gain * velocity), state + self.period * velocity
 
 
 scenario = umbilical.load("paper", {"duration": 20.0})

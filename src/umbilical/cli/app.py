@@ -79,7 +79,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     debug = "--debug" in given
     try:
-        return app([word for word in given if word != "--debug"], prog_name="umbilical", standalone_mode=False) or 0
+        return _invoke([word for word in given if word != "--debug"])
     except BrokenPipeError:  # the reader has gone; nothing must be written to it at the end, either
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 4
@@ -87,6 +87,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if debug:
             traceback.print_exception(error)
         return _explain(error, as_json="--json" in given)
+
+
+def _invoke(words: list[str]) -> int:
+    """Parse and call, without typer's own handling of errors: ours says more."""
+    command = typer.main.get_command(app)
+    try:
+        with command.make_context("umbilical", words) as context:
+            return command.invoke(context) or 0
+    except typer.Exit as done:
+        return done.exit_code
 
 
 def _explain(error: BaseException, *, as_json: bool) -> int:

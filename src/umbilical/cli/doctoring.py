@@ -21,7 +21,12 @@ PARTNERS = ("control", "gymnasium", "optuna", "dask", "moordyn", "wavespectra")
 def doctor(
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> int:
-    """Show versions, folders and cores, to send along with a question."""
+    """Show versions, folders and cores, to send along with a question.
+
+    \b
+    example
+      umbilical doctor --json
+    """
     findings = examine()
     if as_json:
         say_json(findings)

@@ -25,7 +25,7 @@ class Entry(NamedTuple):
 
 
 def inventory(scenario: Scenario) -> list[Entry]:
-    """Every value of a scenario but those of sections that are left at their defaults.
+    """Every value of a scenario, but for sections that are left at their defaults and not marked.
 
     >>> from umbilical.admission import load
     >>> [entry for entry in inventory(load("paper")) if entry.key == "cable.line_density"][0].value
@@ -38,7 +38,7 @@ def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[En
     for name, field in type(record).model_fields.items():
         value, key = getattr(record, name), path + name
         if isinstance(value, Record):
-            if value != field.get_default(call_default_factory=True):
+            if value != field.get_default(call_default_factory=True) or _is_marked(key, marks):
                 yield from _entries(value, key + ".", marks)
         elif _is_list_of_tables(value):
             for number, item in enumerate(value, start=1):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import run_document, say, say_json
+from umbilical.cli.speech import run_document, say, say_json, tell
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.errors import Problem, ScenarioError
 
@@ -86,10 +86,12 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     files = {}
     if out:
         files["result"] = str(run.save(out, force=force))
-    if plot:
+    if plot and run["time"].size > 1:
         from umbilical.plots import plot_overview, save_figure
 
         files["plot"] = str(save_figure(plot_overview(run), plot, force=force))
+    elif plot:
+        tell(f"{plot}: not drawn, the run ended before there was anything to draw")
     return files
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import as_figure, at_sigma, axis_label, draw, finish, own_or_new
+from umbilical.plots.figure import as_figure, at_sigma, axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,13 +24,13 @@ def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
 
     The coloured region ends where the cable ends, so paying out and hauling in show as they are.
     """
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     y = run["displacement"]
     chosen = y.isel(time=slice(None, None, max(1, y.sizes["time"] // COLUMNS)))
     length = run["length"].sel(time=chosen["time"]).values
     depth = chosen["sigma"].values[None, :] * length[:, None]
     times = np.broadcast_to(chosen["time"].values[:, None], depth.shape)
-    size = float(np.nanmax(np.abs(chosen.values), initial=0.0)) or 1.0
+    size = float(np.abs(chosen.values).max()) or 1.0
     colours = {"cmap": "RdBu_r", "vmin": -size, "vmax": size}
     picture = ax.pcolormesh(times, depth, chosen.values, shading="gouraud", rasterized=True, **colours)
     as_figure(ax).colorbar(picture, ax=ax, label=axis_label(y), format="%.3g", pad=0.02)
@@ -42,7 +42,7 @@ def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
 
 def plot_positions(run: Run, *, ax: Axes | None = None) -> Axes:
     """Displacement at l/4, l/2, 3l/4 and l over time, m."""
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     for number, (name, sigma) in enumerate(PLACES.items()):
         draw(ax, at_sigma(run, sigma), f"$x = {name}$", colour=number)
     y = run["displacement"]

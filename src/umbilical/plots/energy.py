@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.plots.figure import axis_label, draw, finish, own_or_new
+from umbilical.plots.figure import axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,7 +18,7 @@ NEGLIGIBLE = 1e-3
 
 def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
     """Energy of cable and ROV over time, and every work on it since the start that is not negligible, J."""
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     draw(ax, run["energy"], "energy", colour=6)
     for number, name in enumerate(large_works(run)):
         draw(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)

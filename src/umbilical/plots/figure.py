@@ -30,8 +30,14 @@ ONE_ROW = 5
 """Names in one row of a legend; it stands above the axes, where no curve is."""
 
 
-def own_or_new(ax: Axes | None) -> Axes:
-    """The axes given, or those of a new figure."""
+def axes_for(run: Run, ax: Axes | None) -> Axes:
+    """The axes given, or those of a new figure.
+
+    Raises:
+        ValueError: the run ended before there was anything to draw.
+    """
+    if run["time"].size < 2:
+        raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
     return new_figure(8.0, 4.0).add_subplot() if ax is None else ax
 
 
@@ -108,7 +114,7 @@ def mark_events(ax: Axes, run: Run) -> None:
     """Dashed lines, named, where faults begin and end; dotted ones where anything else jumps."""
     from umbilical.plant.exogenous import published_jumps
 
-    last = float(run["time"].values[-1]) if run["time"].size else 0.0
+    last = float(run["time"].values[-1])
     named = fault_words(run)
     jumps = [t for t in published_jumps(run.scenario) if 0.0 < t < last and t not in named]
     for t in jumps if len(jumps) <= MANY_JUMPS else []:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.plots.figure import axis_label, draw, finish, own_or_new
+from umbilical.plots.figure import axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -23,7 +23,7 @@ def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = Non
     """
     if channel not in run.data or "motor" not in run[channel].dims or not run.data.sizes["motor"]:
         raise ValueError(f"{run.scenario.name}: this run has no {channel} of motors")
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     for place, number in enumerate(run["motor"].values):
         draw(ax, run[channel].isel(motor=place), f"motor {number}" if number <= NAMED else "", colour=place)
     if channel == "motor_speed" and run["speed_reference"].any():
@@ -42,7 +42,7 @@ def plot_allocation(run: Run, *, ax: Axes | None = None) -> Axes:
     """
     if "kappa" not in run.data or not adapted(run):
         raise ValueError(f"{run.scenario.name}: nothing was adapted in this run")
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     for place, number in enumerate(run["kappa_index"].values):
         values = run["kappa"].isel(kappa_index=place)
         size = float(abs(values).max())

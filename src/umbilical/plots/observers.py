@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.plots.figure import axis_label, draw, finish, own_or_new
+from umbilical.plots.figure import axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,7 +42,7 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
         if motor not in truth["motor"].values:
             raise ValueError(f"{run.scenario.name}: there is no motor {motor}")
         truth, estimate, title = truth.sel(motor=motor), estimate.sel(motor=motor), f"{title}, motor {motor}"
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     draw(ax, truth, "truth")
     draw(ax, estimate, "estimate", colour=1, dashed=True)
     return finish(ax, run, title, axis_label(truth))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.plots.figure import axis_label, draw, finish, own_or_new
+from umbilical.plots.figure import axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def plot_tip(run: Run, *, ax: Axes | None = None) -> Axes:
     """Displacement of the ROV over time, m."""
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     y = run["tip_displacement"]
     draw(ax, y)
     return finish(ax, run, y.attrs["long_name"], axis_label(y))
@@ -22,7 +22,7 @@ def plot_tip(run: Run, *, ax: Axes | None = None) -> Axes:
 
 def plot_thrust(run: Run, *, ax: Axes | None = None) -> Axes:
     """Thrust as delivered and as commanded over time, N."""
-    ax = own_or_new(ax)
+    ax = axes_for(run, ax)
     draw(ax, run["thrust"], "delivered")
     draw(ax, run["thrust_command"], "commanded", colour=1, dashed=True)
     return finish(ax, run, "thrust", axis_label(run["thrust"]))
