@@ -297,7 +297,7 @@ MOTOR: list[Case] = [
 ]
 
 NEIGHBOURS: list[tuple[str, dict[str, Any]]] = [
-    ("paper", {"winch": {"law": "speed", "start_length": 450.0, "speed": -8.5}}),
+    ("paper", {"winch": {"law": "speed", "start_length": 450.0, "speed": -8.5}, "grid.elements": 24}),
     ("paper", {"winch": {"law": "cosine", "start_length": 450.0, "amplitude": 10.0, "frequency": 0.99}}),
     (
         "paper",

@@ -34,7 +34,7 @@ def test_steps_divide_the_period() -> None:
 
 def test_cable_limit_is_that_of_verlet_on_the_grid() -> None:
     """Between 80 % and 91 % of 2/omega with the frequency bound of the longest cable of the run."""
-    elements = 24
+    elements = load("paper").grid.elements
     limit = stated_limit(load("paper"), "grid.elements")
     fastest = max(
         highest_frequency(np.sqrt((500.0 + 2.0 * length) * 10.0 / 2.0), length / elements)
