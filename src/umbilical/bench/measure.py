@@ -150,7 +150,7 @@ def _others() -> list[Row]:
     import numpy as np
 
     from umbilical.admission import load
-    from umbilical.bench.reference import tip_displacement
+    from umbilical.bench.reference import displacement
     from umbilical.control.cascade import Cascade
     from umbilical.engine.simulate import simulate
 
@@ -158,7 +158,7 @@ def _others() -> list[Row]:
     simulate(short.replace({"duration": 0.1}), Cascade(short))
     python = simulate(short, Cascade(short)).timing["simulate_s"] * 50.0 / PYTHON_LOOP
     begun = perf_counter()
-    tip_displacement(np.array([0.0, REFERENCE]))
+    displacement(np.array([0.0, REFERENCE]))
     plain = (perf_counter() - begun) * 50.0 / REFERENCE
     called = f"the controller is called from Python; {PYTHON_LOOP:g} s, scaled"
     script = f"100 nodes of second order, RK45, continuous law; {REFERENCE:g} s, scaled"

@@ -99,8 +99,8 @@ def rates(t: float, state: np.ndarray) -> np.ndarray:
     return np.concatenate([y_rate[1:], w_rate[1:], *motors])
 
 
-def tip_displacement(times: np.ndarray) -> np.ndarray:
-    """y(l,t) at increasing instants from 0, m, from a straight cable at rest.
+def displacement(times: np.ndarray) -> np.ndarray:
+    """y at increasing instants from 0 and N + 1 nodes from vessel to ROV, m, from a straight cable at rest.
 
     Raises:
         RuntimeError: scipy gave up, or the state is not finite.
@@ -109,4 +109,4 @@ def tip_displacement(times: np.ndarray) -> np.ndarray:
     found = solve_ivp(rates, (0.0, float(times[-1])), state, t_eval=times, rtol=1e-6, atol=1e-9)
     if not found.success or not np.isfinite(found.y).all():
         raise RuntimeError(f"the reference failed: {found.message}")
-    return found.y[N - 1]
+    return np.concatenate([np.zeros((1, times.size)), found.y[:N]]).T

@@ -1,0 +1,49 @@
+"""The public surface: what is exported exists, is documented, and importing it is cheap."""
+
+from __future__ import annotations
+
+import inspect
+import subprocess
+import sys
+
+import pytest
+
+import umbilical
+
+NAMES = {
+    "Command",
+    "Controller",
+    "Measurement",
+    "Run",
+    "Scenario",
+    "Status",
+    "load",
+    "open_run",
+    "plot_cable",
+    "plot_motors",
+    "plot_observers",
+    "plot_overview",
+    "plot_tip",
+    "preset_names",
+    "simulate",
+}
+
+
+def test_the_names_are_these():
+    assert set(umbilical.__all__) >= NAMES
+    assert {*umbilical.__all__, "__version__"} == set(dir(umbilical))
+
+
+@pytest.mark.parametrize("name", umbilical.__all__)
+def test_a_name_leads_somewhere_and_explains_itself(name):
+    assert inspect.getdoc(getattr(umbilical, name))
+
+
+def test_a_misspelt_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="simulat"):
+        umbilical.simulat  # noqa: B018
+
+
+def test_importing_the_package_imports_next_to_nothing():
+    script = "import sys, umbilical; raise SystemExit(any(m in sys.modules for m in ('numpy', 'pydantic', 'numba')))"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
