@@ -18,7 +18,15 @@ if TYPE_CHECKING:
     from umbilical.admission import load, preset_names
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.engine.simulate import simulate
-    from umbilical.plots import plot_cable, plot_motors, plot_observers, plot_overview, plot_tip
+    from umbilical.plots import (
+        plot_cable,
+        plot_energy,
+        plot_motors,
+        plot_observers,
+        plot_overview,
+        plot_positions,
+        plot_tip,
+    )
     from umbilical.run import Run, Status, open_run
     from umbilical.scenario import Scenario
 
@@ -35,9 +43,11 @@ _HOMES = {
     "load": "umbilical.admission",
     "open_run": "umbilical.run",
     "plot_cable": "umbilical.plots",
+    "plot_energy": "umbilical.plots",
     "plot_motors": "umbilical.plots",
     "plot_observers": "umbilical.plots",
     "plot_overview": "umbilical.plots",
+    "plot_positions": "umbilical.plots",
     "plot_tip": "umbilical.plots",
     "preset_names": "umbilical.admission",
     "simulate": "umbilical.engine.simulate",
@@ -53,9 +63,11 @@ __all__ = [
     "load",
     "open_run",
     "plot_cable",
+    "plot_energy",
     "plot_motors",
     "plot_observers",
     "plot_overview",
+    "plot_positions",
     "plot_tip",
     "preset_names",
     "simulate",

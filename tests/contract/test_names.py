@@ -20,9 +20,11 @@ NAMES = {
     "load",
     "open_run",
     "plot_cable",
+    "plot_energy",
     "plot_motors",
     "plot_observers",
     "plot_overview",
+    "plot_positions",
     "plot_tip",
     "preset_names",
     "simulate",
@@ -30,7 +32,7 @@ NAMES = {
 
 
 def test_the_names_are_these():
-    assert set(umbilical.__all__) >= NAMES
+    assert set(umbilical.__all__) == NAMES
     assert {*umbilical.__all__, "__version__"} == set(dir(umbilical))
 
 
