@@ -55,8 +55,7 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
             "motors": [],
             "faults": [],
             "ideal_thruster": True,
-            "control.law": {"kind": "none"},
-            "control.nominal": {},
+            "control": {"period": scenario.control.period, "law": {"kind": "none"}},
         }
         | {f"environment.{name}": value for name, value in quiet.items()}
     )

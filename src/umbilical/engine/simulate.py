@@ -133,8 +133,8 @@ def _set_up(scenario: Scenario, controller: Controller | None) -> Setup:
 def _periods(scenario: Scenario, controller: Controller) -> tuple[float, int]:
     """Period of the loop, and how many of them pass between two calls of a user's controller."""
     own, loops = float(controller.period), scenario.control.period
-    every = round(own / loops)
-    if not np.isfinite(own) or every < 1 or abs(own / loops - every) > 1e-9 * every:
+    every = round(own / loops) if np.isfinite(own) else 0
+    if every < 1 or abs(own / loops - every) > 1e-9 * every:
         raise ScenarioError(
             [
                 Problem(
