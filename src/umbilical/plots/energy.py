@@ -19,7 +19,7 @@ NEGLIGIBLE = 1e-3
 def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
     """Energy of cable and ROV over time, and every work on it since the start that is not negligible, J."""
     ax = axes_for(run, ax)
-    draw(ax, run["energy"], "energy", colour=6)
+    draw(ax, run["energy"], "energy", colour=6, dashed=True)
     for number, name in enumerate(large_works(run)):
         draw(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)
     residual = run.metrics.get("energy_balance_residual", float("nan"))

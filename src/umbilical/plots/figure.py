@@ -24,9 +24,11 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 QUIET = "#808080"
 MANY_JUMPS = 20
 """More marks than this would hide the curves."""
+WORDS_WIDTH = 0.3
+"""Share of the time axis that the name of an event takes at most."""
 PLAIN_POWERS = (-4, 5)
 """Powers of ten between which ticks are written out."""
-ONE_ROW = 5
+ONE_ROW = 4
 """Names in one row of a legend; it stands above the axes, where no curve is."""
 
 
@@ -122,8 +124,22 @@ def mark_events(ax: Axes, run: Run) -> None:
     for t, words in named.items():
         if t < last:
             ax.axvline(t, color=QUIET, linewidth=1.0, linestyle="--")
-            place = {"xytext": (3, -3), "textcoords": "offset points", "va": "top", "fontsize": 8}
-            ax.annotate(words, (t, 1.0), xycoords=("data", "axes fraction"), color="#404040", **place)
+            ax.annotate(
+                words,
+                (t, 1.0),
+                xycoords=("data", "axes fraction"),
+                xytext=(3, -2 - 10 * _lines_before(t, named, WORDS_WIDTH * last)),
+                textcoords="offset points",
+                va="top",
+                fontsize=8,
+                color="#404040",
+                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5},
+            )
+
+
+def _lines_before(t: float, named: dict[float, str], near: float) -> int:
+    """Lines of the names that begin shortly before, and that this one must stand below."""
+    return sum(words.count("\n") + 1 for other, words in named.items() if t - near < other < t)
 
 
 def fault_words(run: Run) -> dict[float, str]:
@@ -133,7 +149,7 @@ def fault_words(run: Run) -> dict[float, str]:
         words.setdefault(fault.start, []).append(f"motor {fault.motor}: {fault.kind}")
         if fault.end is not None:
             words.setdefault(fault.end, []).append(f"motor {fault.motor}: healthy")
-    return {t: "\n".join(texts) for t, texts in words.items()}
+    return {t: "\n".join(words[t]) for t in sorted(words)}
 
 
 def at_sigma(run: Run, sigma: float) -> xarray.DataArray:
