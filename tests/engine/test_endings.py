@@ -66,6 +66,7 @@ def test_a_voltage_that_is_not_a_number() -> None:
     check_kept(result, 0.031, unknown=("thrust_command", "disturbance"))  # who gives voltages commands no thrust
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")  # what compiled code does without a word
 def test_a_motor_that_runs_away_is_noticed() -> None:
     controller = Answering(lambda t: Command(voltage=np.array([1e200, 0.0])))
     result = umbilical.simulate(small("paper"), controller)
