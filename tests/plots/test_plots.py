@@ -159,8 +159,8 @@ def test_a_file_is_not_replaced_unasked_and_needs_a_known_ending(run, tmp_path):
 def test_pyplot_is_never_touched(run, tmp_path):
     stored = run.save(tmp_path / "run.nc")
     script = (
-        "import sys; from umbilical import open_run, plots\n"
-        "for draw in plots.PLOTS.values(): draw(open_run(sys.argv[1]))\n"
+        "import sys; from umbilical import open_run, plots; run = open_run(sys.argv[1])\n"
+        "for draw in plots.PLOTS.values(): draw(run)\n"
         "raise SystemExit('matplotlib.pyplot' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script, stored], check=False).returncode == 0
