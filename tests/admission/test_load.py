@@ -160,6 +160,20 @@ def test_what_never_happens_is_let_in_with_a_word(overrides: dict[str, Any], key
     assert "after the end of the run at 50 s" in notice.message
 
 
+def test_a_loop_that_feels_the_grid_is_let_in_with_a_word() -> None:
+    (notice,) = admit(load("ringdown", {"control.law.slope_gain": 5.0}))
+    assert notice.key == "control.law.slope_gain"
+    assert "grid.elements" in notice.message
+    assert not admit(load("ringdown", {"control.law.slope_gain": 1.0}))
+
+
+def test_adaptation_without_the_error_that_drives_it_is_refused() -> None:
+    law = {"kind": "pd", "position_gain": 100.0, "velocity_gain": 10.0}
+    with pytest.raises(ScenarioError) as refusal:
+        load("paper-adaptive", {"control.law": law})
+    assert [problem.key for problem in refusal.value.problems] == ["control.allocation.method"]
+
+
 def test_a_fault_at_the_very_end_is_let_in_silently() -> None:
     assert admit(load("paper", {"faults": [{"kind": "dead", "motor": 1, "start": 50.0}]})) == ()
 

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import pi, sqrt
 from typing import NamedTuple
 
-from umbilical.admission.findings import Finding, amount
+from umbilical.admission.findings import Finding, Notice, amount
 from umbilical.errors import Problem
+from umbilical.plant import winch as laws
 from umbilical.scenario.control import AdaptiveAllocation, BoundaryLaw, Control, NoControl, ProportionalDerivative
-from umbilical.scenario.hardware import Motor
+from umbilical.scenario.environment import Environment
+from umbilical.scenario.hardware import Cable, Motor, Payload
+from umbilical.scenario.scenario import Grid
 from umbilical.scenario.sensors import Sensors
+from umbilical.scenario.winch import Winch
 
 
 class Needs(NamedTuple):
@@ -147,3 +152,40 @@ def _box(law: AdaptiveAllocation) -> Iterator[Finding]:
                 "kappa is projected onto the box between lower and upper, and starts in it",
                 "a start inside the box, or a box around the start",
             )
+
+
+def adaptation_has_its_error(control: Control) -> Iterator[Finding]:
+    """The adaptive law is driven by u_a, which only the boundary law computes."""
+    if isinstance(control.allocation, AdaptiveAllocation) and not isinstance(control.law, BoundaryLaw):
+        yield Problem(
+            "control.allocation.method",
+            '"adaptive"',
+            f'"known" with the law "{control.law.kind}"',
+            "the adaptive law is driven by u_a, which only the boundary law computes: kappa would only leak away",
+            'set control.law.kind = "boundary" or control.allocation.method = "known"',
+        )
+
+
+_FELT_FROM = 2.0
+"""Slope gain, m/s, from which the answer was seen to hang on the elements near the ROV (docs/gaps.md)."""
+
+
+def grid_near_the_payload(
+    duration: float,
+    control: Control,
+    cable: Cable,
+    payload: Payload,
+    environment: Environment,
+    winch: Winch,
+    grid: Grid,
+) -> Iterator[Finding]:
+    """A loop fast enough to feel the grid at the ROV needs evidence from more than one grid."""
+    if isinstance(control.law, BoundaryLaw) and control.law.slope_gain >= _FELT_FROM:
+        speed = sqrt(payload.mass * environment.gravity / cable.line_density)
+        shortest = float(laws.evaluate(winch, [0.0, duration]).length.min())
+        band = 2.0 * pi * speed * grid.elements / shortest
+        yield Notice(
+            "control.law.slope_gain",
+            f"at {control.law.slope_gain:g} m/s the loop feels the grid at the ROV, which stops waves near {band:.0f} "
+            "rad/s; believe in stability only what several grids agree on, e.g. grid.elements = 16, 24 and 32",
+        )
