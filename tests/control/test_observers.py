@@ -72,8 +72,8 @@ def measured_transfer(observer: HighGain, frequency: float) -> complex:
     """Gain and phase from a sine to the estimate of its derivative, once the start has died away."""
     t = np.arange(0, 2000) * PERIOD
     found = estimates(observer, np.sin(frequency * t))[-1000:]
-    wave = np.exp(1j * frequency * t[-1000:])
-    measured = np.linalg.lstsq(np.stack([wave.imag, wave.real], axis=1), found, rcond=None)[0]
+    angle = frequency * t[-1000:]
+    measured = np.linalg.lstsq(np.stack([np.sin(angle), np.cos(angle)], axis=1), found, rcond=None)[0]
     return complex(measured[0], measured[1])
 
 

@@ -56,7 +56,7 @@ def test_every_term_is_needed(way: tuple[float, float]) -> None:
     """Left out, any term of the balance opens it by at least a hundred times the residual."""
     result = moved(way, 16, 1e-3)
     energy, closed = result["energy"].values, result.metrics["energy_balance_residual"]
-    works = {str(name): result[name].values for name in result.data if str(name).startswith("work_")}
+    works = {str(name): result[str(name)].values for name in result.data if str(name).startswith("work_")}
     assert len(works) == 7
     total = np.sum(list(works.values()), axis=0)
     scale = max(energy.max(), np.abs(np.diff(total)).sum())

@@ -94,7 +94,7 @@ def test_completed_means_finite(
         return  # refused before the first step: nothing passes for a result
     result = umbilical.simulate(scenario)
     assert result.status in (Status.COMPLETED, Status.DIVERGED)
-    finite = all(np.isfinite(result[name].values).all() for name in result.data.data_vars)
+    finite = all(np.isfinite(result[str(name)].values).all() for name in result.data.data_vars)
     assert finite or result.status is Status.DIVERGED
     if result.status is Status.COMPLETED:
         assert result.metrics["slope_peak"] <= 1.0

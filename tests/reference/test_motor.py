@@ -19,8 +19,8 @@ def test_steady_state() -> None:
     result = drive([constant(VOLTAGE)], 1.0)
     assert result["motor_speed"].values[-1, 0] == pytest.approx(50.0, rel=1e-9)
     assert result["motor_current"].values[-1, 0] == pytest.approx(625.1875, rel=1e-9)
-    assert steady_speed(Motor(**MOTOR), VOLTAGE) == pytest.approx(50.0, rel=1e-14)
-    assert steady_speed(Motor(**MOTOR), -VOLTAGE) == pytest.approx(-50.0, rel=1e-14)
+    assert steady_speed(Motor.model_validate(MOTOR), VOLTAGE) == pytest.approx(50.0, rel=1e-14)
+    assert steady_speed(Motor.model_validate(MOTOR), -VOLTAGE) == pytest.approx(-50.0, rel=1e-14)
 
 
 def test_step_from_rest() -> None:

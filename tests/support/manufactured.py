@@ -55,11 +55,9 @@ def problem(drift: float) -> Problem:
     vessel = y.subs(x, 0)
     net = GRAVITY - acceleration
     world = [length, speed, acceleration, net, jerk / net, vessel, sympy.diff(vessel, t)]
-    return Problem(
-        *(sympy.lambdify((x, t), q, "numpy", cse=True) for q in (y, velocity, load)),
-        sympy.lambdify(t, force.subs(x, length), "numpy", cse=True),
-        sympy.lambdify(t, world, "numpy", cse=True),
-    )
+    along = [sympy.lambdify((x, t), q, "numpy", cse=True) for q in (y, velocity, load)]
+    at_ends = [sympy.lambdify(t, q, "numpy", cse=True) for q in (force.subs(x, length), world)]
+    return Problem(along[0], along[1], along[2], at_ends[0], at_ends[1])
 
 
 def solve(drift: float, elements: int, step: float) -> tuple[np.ndarray, np.ndarray]:

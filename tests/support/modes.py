@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import mpmath
 import numpy as np
 from scipy.optimize import brentq
@@ -36,7 +38,7 @@ def bessel_frequencies(
     def coarse(w: float) -> float:
         return float(jv(0, top * w) * yv(2, foot * w) - yv(0, top * w) * jv(2, foot * w))
 
-    def fine(w: mpmath.mpf) -> mpmath.mpf:
+    def fine(w: Any) -> Any:
         return mpmath.besselj(0, top * w) * mpmath.bessely(2, foot * w) - mpmath.bessely(0, top * w) * mpmath.besselj(
             2, foot * w
         )
@@ -57,11 +59,11 @@ def damped_pole(
     foot_scale = 2.0 * float(np.sqrt(mass / (line_density * gravity)))
     top_scale = 2.0 * float(np.sqrt((mass + line_density * length) / (line_density * gravity)))
 
-    def residue(lam: mpmath.mpc) -> mpmath.mpc:
+    def residue(lam: Any) -> Any:
         w = -1j * lam
         z0, z1 = foot_scale * w, top_scale * w
 
-        def shape(order: int) -> mpmath.mpc:
+        def shape(order: int) -> Any:
             return mpmath.besselj(order, z0) * mpmath.bessely(0, z1) - mpmath.bessely(order, z0) * mpmath.besselj(0, z1)
 
         # dz/ds = 2 w^2/(g z), s up from the ROV; J0' = -J1, and Y_x = -Y_s.
