@@ -108,9 +108,9 @@ class Outside:
         if environment.vessel_motion:
             motion = inputs.world[VESSEL : VESSEL_VELOCITY + 1]
             _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps)
-        _fill_signal(inputs.world[FORCE], environment.payload_force, steps)
+        _fill_signal(inputs.world[FORCE], environment.payload_force, steps, middle=False)
         for row, load in zip(inputs.loads, environment.cable_load, strict=True):
-            _fill_signal(row, load.signal, steps)
+            _fill_signal(row, load.signal, steps, middle=False)
         self._sample_motors(steps, inputs.motors)
         return inputs
 
@@ -146,16 +146,19 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
     return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), np.zeros((8, 3, steps)), motors, loads)
 
 
-def _fill_signal(row: Array, signal: signals.Signal, steps: Steps) -> None:
+def _fill_signal(row: Array, signal: signals.Signal, steps: Steps, *, middle: bool = True) -> None:
     """A signal into ``row``, shape (3, steps); the rows of absent signals stay zero."""
     if signal:
-        _fill(row[None], lambda t, side: (signals.evaluate(signal, t, side),), steps)
+        _fill(row[None], lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
 
 
-def _fill(rows: Array, function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps) -> None:
-    """Functions of time into ``rows``, shape (functions, 3, steps)."""
-    for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
-        row[MIDDLE] = values
+def _fill(
+    rows: Array, function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = True
+) -> None:
+    """Functions of time into ``rows``, shape (functions, 3, steps); Verlet needs no force in the ``middle``."""
+    if middle:
+        for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
+            row[MIDDLE] = values
     if steps.jumps.size:
         starts, ends = function(steps.start, "right"), function(steps.end, "left")
     else:  # nothing jumps: each knot serves as the end of one step and the start of the next
