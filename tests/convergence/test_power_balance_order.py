@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.support.orders import moving_midpoint, orders
+from tests.support.orders import orders
 from tests.support.scenarios import open_loop, run, sine
 from umbilical import Run
 
@@ -38,7 +38,6 @@ def residual(way: tuple[float, float], elements: int, step: float) -> float:
     return moved(way, elements, step).metrics["energy_balance_residual"]
 
 
-@moving_midpoint
 @WAYS
 def test_order_in_the_step(way: tuple[float, float]) -> None:
     observed = orders([residual(way, 32, step) for step in (4e-3, 2e-3)])

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tests.support.manufactured import GROWING, SHRINKING, exact, solve
-from tests.support.orders import moving_midpoint, orders
+from tests.support.orders import orders
 from umbilical.plant.layout import quadrature
 
 GRIDS = (8, 16, 32)
@@ -28,7 +28,6 @@ def errors(drift: float, elements: int) -> tuple[float, float]:
     return float(y), float(w)
 
 
-@moving_midpoint
 @pytest.mark.parametrize("drift", [GROWING, SHRINKING], ids=["growing", "shrinking"])
 def test_order_in_the_element_size(drift: float) -> None:
     displacement, velocity = (orders([errors(drift, n)[k] for n in GRIDS]) for k in range(2))
@@ -39,7 +38,6 @@ def test_order_in_the_element_size(drift: float) -> None:
     assert velocity.max() < 5.5, "a higher order than stated wants an explanation"
 
 
-@moving_midpoint
 @pytest.mark.parametrize("drift", [GROWING, SHRINKING], ids=["growing", "shrinking"])
 def test_size_of_the_error(drift: float) -> None:
     """Three elements per wave of 44 m (n = 4 on 60 m) give three digits, eight times as many give eight."""

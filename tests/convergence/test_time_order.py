@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from tests.support.manufactured import GROWING, SHRINKING, exact, solve
-from tests.support.orders import moving_midpoint, orders
+from tests.support.orders import orders
 
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4)
 DRIFTS = pytest.mark.parametrize("drift", [GROWING, SHRINKING], ids=["growing", "shrinking"])
 
 
-@moving_midpoint
 @DRIFTS
 def test_order_in_the_step(drift: float) -> None:
     """Differences of successive solutions on one grid: the grid's own error drops out."""
@@ -25,7 +24,6 @@ def test_order_in_the_step(drift: float) -> None:
             assert observed[-1] == pytest.approx(2.0, abs=0.1)
 
 
-@moving_midpoint
 @DRIFTS
 def test_size_of_the_error(drift: float) -> None:
     """At 1 ms, 16 elements: below the leading term dt^2/24 y_tttt t^2/2 for y of size 1 and rates up to 2.5 rad/s."""

@@ -25,7 +25,9 @@ LAWS: dict[str, Winch] = {
     ),
     "triangle": Trapezoid(law="trapezoid", start_length=450.0, end_length=451.0, top_speed=2.0, acceleration=0.5),
     "cosine": Cosine(law="cosine", start_length=450.0, amplitude=20.0, frequency=0.3),
-    "table": TabulatedLength(law="table", times=(0.0, 10.0, 22.0, 35.0, 50.0), lengths=(450.0, 455.0, 470.0, 480.0, 478.0)),
+    "table": TabulatedLength(
+        law="table", times=(0.0, 10.0, 22.0, 35.0, 50.0), lengths=(450.0, 455.0, 470.0, 480.0, 478.0)
+    ),
 }  # fmt: skip
 
 

@@ -5,12 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import pytest
-
-moving_midpoint = pytest.mark.xfail(
-    strict=True,
-    reason="the slope in the middle of a step lacks its transport part: first order in time while the winch runs",
-)
 
 
 def orders(errors: Sequence[float]) -> np.ndarray:
