@@ -44,7 +44,7 @@ from umbilical.relations.formulas import motor_constants
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
 
-STEPS_AT_ONCE = 5000
+STEPS_AT_ONCE = 10000
 """Plant steps between two looks at the outside world, at progress and at Ctrl-C. No result depends on it."""
 
 

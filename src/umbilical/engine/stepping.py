@@ -153,8 +153,8 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     after = state.now[NET_GRAVITY]
     if after != before and before > 0.0:
         strain = state.power_along[PRESENT, TENSION]
-        strain_of_elements(plant.cable, state.fields, strain, state.now[LENGTH], after)
-        add_power(state.power_along[SINCE_START, TENSION], strain, 0.5 * (1.0 - before / after))
+        strain_of_elements(plant.cable, state.fields, strain, state.now[LENGTH], after, 0.5)
+        add_power(state.power_along[SINCE_START, TENSION], strain, 1.0 - before / after)
 
 
 @glue

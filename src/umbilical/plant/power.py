@@ -24,8 +24,10 @@ END_TERMS, ALONG_TERMS = 4, 3
 
 
 @kernel
-def strain_of_elements(cable: Cable, fields: np.ndarray, out: np.ndarray, length: float, net_gravity: float) -> None:
-    """int T p^2 dx of every element, J (twice its strain energy), into ``out``, shape (n + 1,)."""
+def strain_of_elements(
+    cable: Cable, fields: np.ndarray, out: np.ndarray, length: float, net_gravity: float, factor: float
+) -> None:
+    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) into ``out``, shape (n + 1,)."""
     n = fields.shape[2] - 1
     g, dense, above = fields[SLOPE], fields[SCRATCH], cable.above
     foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density)
@@ -33,18 +35,18 @@ def strain_of_elements(cable: Cable, fields: np.ndarray, out: np.ndarray, length
     for j in range(5):
         for e in range(n):
             dense[j, e] = (foot + rise * above[j, e]) * g[j, e] * g[j, e]
-    scale = 2.0 * n / length
+    scale = factor * 2.0 * n / length
     for e in range(n):
         ends, inner = dense[0, e] + dense[4, e], dense[1, e] + dense[3, e]
         out[e] = scale * (W0 * ends + W1 * inner + W2 * dense[2, e])
 
 
 @kernel
-def squares_of_elements(fields: np.ndarray, out: np.ndarray, length: float) -> None:
-    """int W^2 dx of every element, m3/s2, into ``out``, shape (n + 1,)."""
+def squares_of_elements(fields: np.ndarray, out: np.ndarray, length: float, factor: float) -> None:
+    """``factor`` times int W^2 dx of every element, m3/s2, into ``out``, shape (n + 1,)."""
     n = fields.shape[2] - 1
     w = fields[VELOCITY]
-    scale = length / (2.0 * n)
+    scale = factor * length / (2.0 * n)
     for e in range(n):
         ends = w[0, e] * w[0, e] + w[0, e + 1] * w[0, e + 1]
         inner = w[1, e] * w[1, e] + w[3, e] * w[3, e]
@@ -68,13 +70,6 @@ def load_on_elements(cable: Cable, fields: np.ndarray, out: np.ndarray, length: 
 
 
 @kernel
-def scale_row(row: np.ndarray, factor: float) -> None:
-    """row *= factor."""
-    for e in range(row.size):
-        row[e] *= factor
-
-
-@kernel
 def power_along(
     cable: Cable,
     fields: np.ndarray,
@@ -86,13 +81,13 @@ def power_along(
 ) -> None:
     """Terms along the cable at the present state, element by element, into ``out``, shape (3, n + 1), W."""
     if cable.damping != 0.0:
-        squares_of_elements(fields, out[CABLE_DAMPING], length)
-        scale_row(out[CABLE_DAMPING], -cable.damping)
+        squares_of_elements(fields, out[CABLE_DAMPING], length, -cable.damping)
     if loads.size > 0:
         load_on_elements(cable, fields, out[CABLE_LOAD], length, loads)
     if jerk_ratio != 0.0:
-        strain_of_elements(cable, fields, out[TENSION], length, net_gravity)
-    scale_row(out[TENSION], -0.5 * jerk_ratio)
+        strain_of_elements(cable, fields, out[TENSION], length, net_gravity, -0.5 * jerk_ratio)
+    else:
+        out[TENSION] = 0.0
 
 
 @kernel
