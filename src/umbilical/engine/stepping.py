@@ -17,9 +17,9 @@ from umbilical.plant.cable import (
     VELOCITY,
     Cable,
     correct,
-    drift,
     evaluate,
-    kick,
+    kick_payload,
+    leap,
     make_cable,
     make_fields,
 )
@@ -205,18 +205,18 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     dt = inputs.dt[i]
     delivered, force, tip = now[DELIVERED], now[FORCE], fields[VELOCITY, 0, elements]
     add_work(state, 0.5 * dt)
-    kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
+    kick_payload(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
     length, speed = inputs.world[LENGTH, MIDDLE, i], inputs.world[SPEED, MIDDLE, i]
     top_slope = 2.0 * elements / length * fields[SLOPE, 0, 0]
     fields[VELOCITY, 0, 0] = inputs.world[VESSEL_VELOCITY, MIDDLE, i] + speed * top_slope
-    drift(plant.cable, fields, dt, length, speed)
+    leap(plant.cable, fields, dt, length, speed)
     fields[DISPLACEMENT, 0, 0] = inputs.world[VESSEL, END, i]
     look_outside(state, inputs, i, END)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, voltage)
         now[DELIVERED] = present_thrust(plant, state)
     # The velocity at the end is predicted with the old forces of the cable, then corrected with the new ones.
-    kick(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
+    kick_payload(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
     refresh(plant, state, FRESH)
     correct(fields, 0.5 * dt)
     note_power(plant, state)

@@ -196,56 +196,66 @@ def evaluate(
 
 
 @kernel
-def kick(cable: Cable, fields: np.ndarray, dt: float, length: float, tip_force: float) -> None:
-    """W += dt * acceleration, with the force on the ROV's node."""
+def kick_payload(cable: Cable, fields: np.ndarray, dt: float, length: float, force: float) -> None:
+    """W += dt * force / mass at the node of the ROV, for the forces from outside the cable."""
     n = fields.shape[2] - 1
-    w, acceleration = fields[VELOCITY], fields[ACCELERATION]
-    for row in range(4):
-        for e in range(n + 1):
-            w[row, e] += dt * acceleration[row, e]
     tip_mass = END_WEIGHT / (2.0 * n) * cable.line_density * length + cable.payload_mass
-    w[0, n] += dt * tip_force / tip_mass
+    fields[VELOCITY, 0, n] += dt * force / tip_mass
 
 
 @glue
-def drift(cable: Cable, fields: np.ndarray, dt: float, length: float, speed: float) -> None:
-    """Y += dt (W - (v A/l) Y_sigma); the vessel's node is left to its boundary condition."""
+def leap(cable: Cable, fields: np.ndarray, dt: float, length: float, speed: float) -> None:
+    """Half a kick, the drift of a whole step, and half a kick more with the old acceleration.
+
+    ``W += dt/2 W_t;  Y += dt (W - (v A/l) Y_sigma);  W += dt/2 W_t``. The last is a prediction, mended by
+    :func:`correct`. The vessel's node is left to its boundary condition.
+    """
     if speed == 0.0:
-        drift_only(fields, dt)
+        leap_in_place(fields, dt)
     else:
-        drift_and_transport(cable, fields, dt, dt * speed / length * 2.0 * (fields.shape[2] - 1))
+        leap_with_transport(cable, fields, dt, dt * speed / length * 2.0 * (fields.shape[2] - 1))
 
 
 @kernel
-def drift_only(fields: np.ndarray, dt: float) -> None:
-    """Y += dt W: the winch stands still."""
-    y, w = fields[DISPLACEMENT], fields[VELOCITY]
+def leap_in_place(fields: np.ndarray, dt: float) -> None:
+    """The winch stands still: no transport."""
+    y, w, acceleration = fields[DISPLACEMENT], fields[VELOCITY], fields[ACCELERATION]
+    half = 0.5 * dt
     for row in range(4):
         for e in range(y.shape[1]):
-            y[row, e] += dt * w[row, e]
+            kick = half * acceleration[row, e]
+            middle = w[row, e] + kick
+            y[row, e] += dt * middle
+            w[row, e] = middle + kick
 
 
 @kernel
-def drift_and_transport(cable: Cable, fields: np.ndarray, dt: float, shift: float) -> None:
-    """Y += dt W - shift A (slope at the middle of the step); a shared node takes the mean slope of its two sides."""
+def leap_with_transport(cable: Cable, fields: np.ndarray, dt: float, shift: float) -> None:
+    """Transport by the slope in the middle of the step; a shared node takes the mean slope of its two sides."""
     n = fields.shape[2] - 1
-    y, w, above = fields[DISPLACEMENT], fields[VELOCITY], cable.above
+    y, w, acceleration, above = fields[DISPLACEMENT], fields[VELOCITY], fields[ACCELERATION], cable.above
     g, middle, r = fields[SLOPE], fields[FLUX], fields[SCRATCH]
     half, half_shift = 0.5 * dt, 0.5 * shift
     for j in range(1, 4):
         for e in range(n):
+            w[j, e] += half * acceleration[j, e]
             middle[j, e] = y[j, e] + half * w[j, e] - half_shift * above[j, e] * g[j, e]
     for e in range(1, n):
+        w[0, e] += half * acceleration[0, e]
         middle[0, e] = y[0, e] + half * w[0, e] - half_shift * above[0, e] * 0.5 * (g[0, e] + g[4, e - 1])
+    w[0, n] += half * acceleration[0, n]
     middle[0, 0] = y[0, 0] + half * w[0, 0] - half_shift * g[0, 0]
     middle[0, n] = y[0, n] + half * w[0, n]
     differentiate(middle, r)
     for j in range(1, 4):
         for e in range(n):
             y[j, e] += dt * w[j, e] - shift * above[j, e] * r[j, e]
+            w[j, e] += half * acceleration[j, e]
     for e in range(1, n):
         y[0, e] += dt * w[0, e] - shift * above[0, e] * 0.5 * (r[0, e] + r[4, e - 1])
+        w[0, e] += half * acceleration[0, e]
     y[0, n] += dt * w[0, n]
+    w[0, n] += half * acceleration[0, n]
 
 
 @kernel
