@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 PATIENCE = 1.0
 """Seconds for which nobody needs a bar."""
-COMPILING = 35
+COMPILING = 30
 """Seconds the first compilation took where this was written: an AMD EPYC, one core busy."""
 
 
