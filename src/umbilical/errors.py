@@ -14,6 +14,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from umbilical.run import Run
 
 
 class UmbilicalError(Exception):
@@ -75,9 +79,13 @@ class OutputError(UmbilicalError):
 
 
 class ControllerError(UmbilicalError):
-    """A user's controller raised, or returned something that is not a command."""
+    """A user's controller raised, or returned something that is not a command.
+
+    ``run`` holds the samples up to then, with status FAILED, when the simulation had begun.
+    """
 
     exit_code = 5
+    run: Run | None = None
 
 
 class MissingPartnerError(UmbilicalError):

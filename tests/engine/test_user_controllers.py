@@ -10,7 +10,7 @@ import pytest
 import umbilical
 from tests.support.controllers import Answering, Recorder
 from tests.support.scenarios import run, small
-from umbilical import Command, Controller
+from umbilical import Command, Controller, Status
 from umbilical.errors import ControllerError, ScenarioError
 
 pytestmark = pytest.mark.nojit
@@ -62,6 +62,32 @@ def test_an_error_inside_the_controller_names_it_and_the_time() -> None:
     with pytest.raises(ControllerError, match=r"Answering failed at t = 0.021 s: ZeroDivisionError") as caught:
         umbilical.simulate(small("paper"), Answering(answer))
     assert isinstance(caught.value.__cause__, ZeroDivisionError)
+
+
+def test_the_samples_up_to_a_failure_are_kept() -> None:
+    scenario = small("paper")
+
+    def answer(t: float) -> Command:
+        return Command(thrust=1.0 / (0.0 if t > 0.0205 else 1.0))
+
+    with pytest.raises(ControllerError) as caught:
+        umbilical.simulate(scenario, Answering(answer))
+    kept = caught.value.run
+    whole = umbilical.simulate(scenario, Answering(lambda t: Command(thrust=1.0)))
+    assert kept is not None
+    assert kept.status is Status.FAILED
+    assert kept.end_time == pytest.approx(0.02)
+    assert "Answering failed at t = 0.021 s" in kept.reason
+    samples = kept.data.sizes["time"]
+    assert 1 <= samples < whole.data.sizes["time"]
+    assert (kept["tip_displacement"].values == whole["tip_displacement"].values[:samples]).all()
+
+
+def test_a_controller_that_fails_at_once_leaves_a_run_without_samples() -> None:
+    with pytest.raises(ControllerError) as caught:
+        umbilical.simulate(small("paper"), Answering(lambda t: Command()))
+    assert caught.value.run is not None
+    assert caught.value.run.data.sizes["time"] == 0
 
 
 def test_an_answer_without_a_state() -> None:

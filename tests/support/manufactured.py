@@ -14,7 +14,7 @@ import sympy
 
 from tests.support.scenarios import open_loop
 from umbilical.engine.loop import World, advance_period
-from umbilical.engine.simulate import _set_up
+from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.plant import exogenous
 from umbilical.plant.cable import DISPLACEMENT, VELOCITY
@@ -82,7 +82,7 @@ def _world(drift: float, elements: int) -> World:
         winch__length=60.0, payload={"mass": MASS, "damping": TIP_DAMPING}, cable__damping=DAMPING, grid__step=1e-4,
         control__period=1e-4, grid__elements=elements,
     )  # fmt: skip
-    world = _set_up(scenario, None).world
+    world = set_up(scenario).world
     nodes = 4 * elements + 1
     cable = world.plant.cable._replace(profiles=to_field(np.eye(nodes)))
     state = world.state._replace(loads=np.zeros(nodes))

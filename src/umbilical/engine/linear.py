@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.engine.loop import World, advance_period
-from umbilical.engine.simulate import _set_up
+from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.plant import winch
 from umbilical.plant.cable import ACCELERATION, DISPLACEMENT, VELOCITY
@@ -38,7 +38,7 @@ def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
     (48, 48)
     """
     still = _stopped(scenario, time)
-    world = _set_up(still, None).world
+    world = set_up(still).world
     inputs = Outside(still).sample(Steps(np.zeros(1), np.full(1, still.grid.step), np.zeros(0)))
     size = len(_FIELDS) * 4 * still.grid.elements
     columns = [_step(world, inputs, unit) for unit in np.eye(size)]

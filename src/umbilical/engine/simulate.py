@@ -35,7 +35,7 @@ from umbilical.engine.recording import (
 from umbilical.engine.schedule import Clock, make_clock, stretch
 from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.plant import faults
 from umbilical.plant.cable import DISPLACEMENT
 from umbilical.plant.exogenous import Outside, published_jumps
@@ -55,6 +55,7 @@ class Ending(NamedTuple):
     reason: str
     updates: int
     time: float
+    error: ControllerError | None = None
 
 
 class Setup(NamedTuple):
@@ -87,7 +88,8 @@ def simulate(
 
     Raises:
         ScenarioError: the scenario was refused, with every problem.
-        ControllerError: the user's controller raised or broke its contract.
+        ControllerError: the user's controller raised or broke its contract; ``error.run`` has the samples
+            up to then.
 
     >>> import umbilical
     >>> scenario = umbilical.load("crosscheck-none").replace({"duration": 1.0})
@@ -97,15 +99,20 @@ def simulate(
     """
     begun = perf_counter()
     notices = tuple(str(notice) for notice in admit(scenario))
-    setup = _set_up(scenario, controller)
+    setup = set_up(scenario, controller)
     prepared = perf_counter()
     ending, sampling = _run(scenario, setup, progress)
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
-    return _assemble(scenario, setup, ending, notices, timing)
+    run = _assemble(scenario, setup, ending, notices, timing)
+    if ending.error is not None:
+        ending.error.run = run
+        raise ending.error
+    return run
 
 
-def _set_up(scenario: Scenario, controller: Controller | None) -> Setup:
+def set_up(scenario: Scenario, controller: Controller | None = None) -> Setup:
+    """The plant at rest with its sensors, record and controller, before the first step."""
     period, every = scenario.control.period, 1
     if controller is not None:
         period, every = _periods(scenario, controller)
@@ -190,10 +197,17 @@ def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | N
         if decider.run(inputs, np.zeros(2, dtype=np.int64), setup.dice.draw(1), clock.periods) != loop.FINISHED:
             return _diverged(setup, clock.periods), sampling
     except KeyboardInterrupt:
-        updates = int(setup.record.tally.count[0])
-        time = max(updates - 1, 0) * clock.period
+        updates, time = _so_far(setup)
         return Ending(Status.INTERRUPTED, f"interrupted at t = {time:g} s", updates, time), sampling
+    except ControllerError as error:
+        return Ending(Status.FAILED, str(error), *_so_far(setup), error), sampling
     return Ending(Status.COMPLETED, "the end of the run was reached", clock.periods + 1, scenario.duration), sampling
+
+
+def _so_far(setup: Setup) -> tuple[int, float]:
+    """Updates taken, and the time of the last one."""
+    updates = int(setup.record.tally.count[0])
+    return updates, max(updates - 1, 0) * setup.clock.period
 
 
 def _diverged(setup: Setup, update: int) -> Ending:
