@@ -114,13 +114,14 @@ PARAMETERS: dict[str, Quantity] = {
     "filter_frequency":    Quantity("rad/s", r"\omega_c", "poles of the command filter"),
     "root_width":          Quantity("rad2/s2", "s", "softening of the signed root of the demand"),
     # numerics
-    "plant_step":          Quantity("s", "", "largest step of the plant"),
+    "plant_step":          Quantity("s", "", "largest step of the plant; shorter where the waves on the cable demand it"),
     "output_interval":     Quantity("s", "", "time between stored samples"),
 }
 
 CHANNELS: dict[str, Quantity] = {
     # along the cable
     "displacement":            Quantity("m", "y", "transverse displacement of the cable", "(6)"),
+    "slope":                   Quantity("1", "y_x", "slope of the cable", "(6)"),
     "velocity":                Quantity("m/s", r"\mathrm{D}y/\mathrm{D}t", "material velocity of the cable", "(6)"),
     # winch, boundaries
     "length":                  Quantity("m", "l", "cable length paid out", "Table 1"),
@@ -161,6 +162,7 @@ CHANNELS: dict[str, Quantity] = {
     "work_cable_load":         Quantity("J", "", "work of the load along the cable"),
     "work_vessel":             Quantity("J", "", "energy that came through the vessel end (payout and vessel motion)"),
     "work_tension":            Quantity("J", "", "work of the changing tension (winch jerk)"),
+    "work_grid":               Quantity("J", "", "taken by the grid from waves it cannot carry (upwind flux)"),
     "energy_residual":         Quantity("J", "", "energy minus its start and all work: what the discretisation leaves open"),
 }
 
@@ -183,6 +185,7 @@ METRICS: dict[str, Quantity] = {
     "motor_voltage_rms":       Quantity("V", "", "root mean square of the motor voltages"),
     "motor_current_peak":      Quantity("A", "", "largest |motor current|, over all motors"),
     "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of largest energy and gross work"),
+    "grid_loss":               Quantity("1", "", "energy the grid took, over the larger of largest energy and gross work"),
 }
 # fmt: on
 

@@ -30,7 +30,7 @@ CONVENTION = (
     "paying out is positive; SI units, angles in radians"
 )
 
-_ALONG_CABLE = ("displacement", "velocity")
+_ALONG_CABLE = ("displacement", "slope", "velocity")
 _PER_MOTOR = (
     "motor_speed",
     "motor_current",

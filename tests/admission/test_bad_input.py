@@ -187,10 +187,14 @@ LENGTH_LAWS: list[Case] = [
     ({"output.interval": 1e-3, "grid.elements": 1000}, "output.interval", "1e+08 stored values"),
     ({"control.period": 1e-320}, "duration", "1e+08 steps"),
     ({"grid.step": 1e-320}, "duration", "1e+08 steps"),
-    ({"grid.elements": 1600}, "grid.step", "at most"),
-    ({"payload.mass": 1e9}, "grid.step", "at most"),
-    ({"cable.damping": 3000.0}, "cable.damping", "below 2000 N s/m2"),
-    ({"payload.damping": 6e5}, "payload.damping", "below 500000 N s/m"),
+    (
+        {"payload.mass": 1e9, "grid.elements": 4096},
+        "grid.elements",
+        "1e+08 steps",
+    ),
+    ({"cable.damping": 3000.0}, "cable.damping", "below 981.818 N s/m2"),
+    ({"payload.damping": 6e5}, "payload.damping", "below 245455 N s/m"),
+    ({"payload.mass": 5e-5}, "payload.mass", "at least 6.47876e-05 kg at a step of 0.001 s"),
 ]
 
 GAINS: list[Case] = [

@@ -6,23 +6,15 @@ import numpy as np
 import pytest
 
 from umbilical.admission import load
-from umbilical.admission.steps import fastest_pole, plant_step, reachable_speed
+from umbilical.admission.steps import chosen_step, fastest_pole, plant_step, reachable_speed
+from umbilical.engine.linear import linearise
 from umbilical.errors import ScenarioError
-from umbilical.plant.elements import LARGEST_EIGENVALUE, highest_frequency
-from umbilical.scenario import Scenario
+from umbilical.plant.multistep import DECAY_LIMIT, amplification, courant_limit
 from umbilical.scenario.hardware import Motor
 
 
 def motor(**constants: float) -> Motor:
     return load("paper").motors[0].model_copy(update=constants)
-
-
-def stated_limit(scenario: Scenario, key: str) -> float:
-    """The largest step that the refusal of a far too large one allows."""
-    with pytest.raises(ScenarioError) as caught:
-        load("paper", {"control.period": 1.0, "output.interval": 1.0, "grid.step": 1.0} | {key: scenario.grid.elements})
-    bound = next(p.bound for p in caught.value.problems if p.key == "grid.step" and "elements" in p.reason)
-    return float(bound.removeprefix("at most ").removesuffix(" s"))
 
 
 def test_steps_divide_the_period() -> None:
@@ -32,28 +24,32 @@ def test_steps_divide_the_period() -> None:
     assert plant_step(paper.control, paper.grid.model_copy(update={"step": 1.0})) == 1e-3
 
 
-def test_cable_limit_is_that_of_verlet_on_the_grid() -> None:
-    """Between 80 % and 91 % of 2/omega with the frequency bound of the longest cable of the run."""
-    elements = load("paper").grid.elements
-    limit = stated_limit(load("paper"), "grid.elements")
-    fastest = max(
-        highest_frequency(np.sqrt((500.0 + 2.0 * length) * 10.0 / 2.0), length / elements)
-        for length in np.linspace(450.0, 500.0, 51)
-    )
-    assert 0.8 < limit * fastest / 2.0 < 0.91
+@pytest.mark.parametrize("elements", [64, 400])
+def test_the_waves_shorten_the_step(elements: int) -> None:
+    """A whole part of the period, below the limit for the fastest wave and the shortest element of the run."""
+    scenario = load("paper", {"grid.elements": elements, "grid.step": 1.0})
+    crossing = min(x / elements / np.sqrt((500.0 + 2.0 * x) * 10.0 / 2.0) for x in np.linspace(450.0, 500.0, 51))
+    step, limit = chosen_step(scenario), 0.9 * courant_limit() * crossing
+    assert round(1e-3 / step) == pytest.approx(1e-3 / step)
+    assert step <= limit < 2.0 * step or step == 1e-3 < limit
 
 
-def test_largest_eigenvalue_is_the_stability_bound_of_verlet() -> None:
-    """Velocity Verlet of one free element: stable just below 2/omega, growing just above."""
-    from umbilical.plant.elements import STIFFNESS, WEIGHTS
+def test_the_cable_is_stable_at_the_limit_and_grows_at_twice_of_it() -> None:
+    """The whole cable with its ROV, not the uniform one that the limit is computed for."""
+    scenario = load("crosscheck-none", {"grid.elements": 8})
+    product = np.linalg.eigvals(linearise(scenario).rates.toarray())
+    limit = 0.9 * courant_limit() * 500.0 / 8 / np.sqrt(1500.0 * 10.0 / 2.0)
+    assert amplification(limit * product).max() < 1.0 + 1e-9
+    assert amplification(2.0 * limit * product).max() > 1.1
 
-    omega = np.sqrt(LARGEST_EIGENVALUE)
-    for factor, grows in ((0.99, False), (1.01, True)):
-        y, w, h = np.array([1.0, -1.0, 1.0, -1.0, 1.0]), np.zeros(5), factor * 2.0 / omega
-        for _ in range(400):
-            w = w - h * (STIFFNESS @ y) / WEIGHTS
-            y = y + h * w
-        assert (np.abs(y).max() > 1e3) == grows
+
+def test_a_light_payload_needs_a_short_step() -> None:
+    """The ROV decays at ``sqrt(rho m g)/m``: just above the stated mass that is just below the method's limit."""
+    with pytest.raises(ScenarioError) as caught:
+        load("crosscheck-none", {"payload.mass": 5e-5})
+    (problem,) = (p for p in caught.value.problems if p.key == "payload.mass")
+    limit = float(problem.bound.removeprefix("at least ").split(" kg")[0])
+    assert np.sqrt(2.0 * 5e-5 * 10.0) / limit * 1e-3 == pytest.approx(0.9 * DECAY_LIMIT, rel=1e-4)
 
 
 def test_reachable_speed_and_poles_of_the_paper_motor() -> None:

@@ -11,7 +11,7 @@ from umbilical import open_run
 from umbilical.run import Status
 
 SHORT = ("--set", "duration=1")
-UNSTABLE = ("--set", "control.law.slope_gain=60", "--set", "control.disturbance_observer.gain=40")
+UNSTABLE = ("--set", "control.law.slope_gain=60", "--set", "control.disturbance_observer.gain=100")
 
 
 def test_text_has_the_metrics_the_assumptions_and_what_was_not_stored(umbilical):

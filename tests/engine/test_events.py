@@ -11,8 +11,8 @@ from tests.support.scenarios import open_loop, run, small
 from umbilical import Run
 
 STEP = 1e-3
-TIP_MASS = 500.0 + 2.0 * 500.0 / (20.0 * 4)
-"""ROV and the share of the cable that the end node of four elements carries, kg."""
+TIP_MASS = 500.0
+"""The ROV, kg. The cable takes ``Z t/(2 m)`` of its momentum within t, Z = 100 N s/m: 5e-4 after 5 ms."""
 
 
 def pushed(force: list[dict[str, Any]], step: float = STEP) -> Run:
@@ -36,7 +36,7 @@ def test_a_pulse_shorter_than_a_step_leaves_its_momentum(start: float, width: fl
     result = pushed(pulse(start, start + width, value=1.0 / width))
     after = int(np.ceil((start + width) / STEP - 1e-9))
     velocity = result["tip_velocity"].values
-    assert velocity[after] == pytest.approx(1.0 / TIP_MASS, rel=1e-2)
+    assert velocity[after] == pytest.approx(1.0 / TIP_MASS, rel=1e-3)
     before = int(np.floor(start / STEP + 1e-9))
     assert not velocity[: before + 1].any()
 
@@ -60,7 +60,7 @@ def stuck(start: float, **more: Any) -> Run:
 
 
 JUST = 1e-4
-MOMENTUM = 5e-3
+MOMENTUM = 1e-3
 """Tolerance of the momentum a fault has given 5 ms later."""
 CASES = {
     "before": 0.05 - JUST,
@@ -105,7 +105,7 @@ def test_recovery() -> None:
     assert (result["thrust"].values[20:41] == 80.0).all()
     assert not result["thrust"].values[41:].any()
     momentum = 80.0 * (0.0405 - 0.02) / TIP_MASS
-    assert result["tip_velocity"].values[45] == pytest.approx(momentum, rel=2e-2)
+    assert result["tip_velocity"].values[45] == pytest.approx(momentum, rel=5e-3)
 
 
 @pytest.mark.nojit

@@ -6,28 +6,77 @@ import numpy as np
 import pytest
 
 import umbilical
-from tests.support.scenarios import constant, open_loop, run, sine
-from umbilical.engine.linear import step_matrix
+from tests.support.scenarios import constant, open_loop, sine
+from umbilical.engine.linear import SAMPLES, linearise, step_matrix, step_poles
+from umbilical.engine.loop import World, advance_period
+from umbilical.engine.schedule import stretch
+from umbilical.engine.sensing import read_truth
+from umbilical.engine.simulate import set_up
+from umbilical.engine.stepping import enter_step
+from umbilical.plant.cable import PRESENT, TIP_VELOCITY
+from umbilical.plant.exogenous import Outside, Steps
 
 pytestmark = pytest.mark.nojit
 
 
 def test_its_powers_are_a_run() -> None:
+    """From the fourth instant on, when the multistep method has the past it needs."""
     start = {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5}
     scenario = open_loop(
         winch__length=100.0, grid__elements=4, initial=start, duration=0.05, output__interval=1e-3, cable__damping=0.3,
         payload__damping=20.0,
     )  # fmt: skip
-    result, matrix = run(scenario), step_matrix(scenario)
-    y, w = (result[name].values[:, 1:] for name in ("displacement", "velocity"))
-    # The acceleration it keeps at first is that of the start: what one step makes of rest in this shape.
-    acceleration = (matrix[16:32, :16] @ y[0] - w[0]) / 1e-3
-    state = np.concatenate([y[0], w[0], acceleration])
-    state[32:] = np.linalg.lstsq(matrix[16:32, 32:], w[1] - matrix[16:32, :32] @ state[:32], rcond=None)[0]
-    for k in range(1, 51):
-        state = matrix @ state
-        np.testing.assert_allclose(state[:16], y[k], atol=1e-12)
-        np.testing.assert_allclose(state[16:32], w[k], atol=1e-12 * np.abs(w).max() + 1e-12)
+    matrix, linear = step_matrix(scenario), linearise(scenario)
+    setup = set_up(scenario)
+    inputs = Outside(scenario).sample(stretch(setup.clock, 0, 50).steps)
+    enter_step(setup.world.plant, setup.world.state, inputs, 0)
+    states = [state_of(setup.world)]
+    for k in range(50):
+        advance_period(setup.world, inputs, k, k + 1)
+        states.append(state_of(setup.world))
+    augmented = np.concatenate([states[3], linear.rates @ states[2], linear.rates @ states[1]])
+    for k in range(4, 51):
+        augmented = matrix @ augmented
+        np.testing.assert_allclose(augmented[: states[k].size], states[k], atol=1e-11 * np.abs(states[k]).max())
+
+
+def state_of(world: World) -> np.ndarray:
+    return np.append(world.state.blocks[PRESENT].ravel(), world.state.ends[TIP_VELOCITY])
+
+
+def test_samples_are_what_the_sensors_read() -> None:
+    scenario = open_loop(
+        winch__length=100.0, grid__elements=4, initial={"shape": "sine", "amplitude": 1.0, "half_waves": 1.5},
+        sensors__ideal_velocity=True,
+    )  # fmt: skip
+    world = set_up(scenario).world
+    world.state.ends[TIP_VELOCITY] = 0.3
+    inputs = Outside(scenario).sample(Steps(np.zeros(1), np.full(1, 1e-3), np.zeros(0)))
+    enter_step(world.plant, world.state, inputs, 0)
+    read_truth(world.state, world.readings)
+    found = linearise(scenario).samples @ state_of(world)
+    np.testing.assert_allclose(found, world.readings.boundary[[*SAMPLES]], rtol=1e-11, atol=1e-14)
+
+
+def test_poles_are_those_of_the_step_matrix() -> None:
+    scenario = open_loop(winch__length=100.0, grid__elements=4, cable__damping=0.3, payload__damping=20.0)
+    factors = np.linalg.eigvals(step_matrix(scenario))
+    for pole in step_poles(scenario):
+        assert np.abs(factors - np.exp(pole * scenario.grid.step)).min() < 1e-9
+
+
+def test_a_held_force_in_terms_of_the_shift() -> None:
+    """The formula of :class:`Linear`: a force ``z^k`` held for each step, found again in a run of the matrix."""
+    scenario = open_loop(winch__length=100.0, grid__elements=4, cable__damping=0.3)
+    linear, z = linearise(scenario), np.exp(0.03j)
+    one = np.eye(linear.push.size)
+    rates = linear.rates.toarray()
+    system = (z - 1.0) * one - linear.step * (23.0 - 16.0 / z + 5.0 / z**2) / 12.0 * rates
+    x = np.linalg.solve(system, linear.step * linear.push)
+    forced = np.concatenate([x, rates @ x / z, rates @ x / z**2])
+    pushed = step_matrix(scenario) @ forced
+    pushed[: x.size] += linear.step * linear.push
+    np.testing.assert_allclose(pushed[: x.size], z * x, rtol=1e-9)
 
 
 def test_loads_motors_and_vessel_are_left_out() -> None:

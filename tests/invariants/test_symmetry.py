@@ -13,7 +13,7 @@ from umbilical import Run
 EVEN = {
     "time", "length", "payout_speed", "payout_acceleration", "energy", "energy_residual", "effectiveness",
     "work_thrust", "work_payload_force", "work_payload_damping", "work_cable_damping", "work_cable_load", "work_vessel",
-    "work_tension",
+    "work_tension", "work_grid",
 }  # fmt: skip
 
 

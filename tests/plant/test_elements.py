@@ -1,12 +1,22 @@
-"""The reference element and the layout of its nodes: exactness and summation by parts."""
+"""The reference element, the layout of its nodes and the limits of the step: exactness and summation by parts."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from umbilical.plant.elements import DERIVATIVE, NODES, WEIGHTS, highest_frequency, interpolation_row
-from umbilical.plant.layout import empty_field, node_count, positions, probe, quadrature, to_field, to_nodal
+from umbilical.plant.elements import DERIVATIVE, INTEGRAL, NODES, WEIGHTS, interpolation_row, upwind_spectrum
+from umbilical.plant.layout import (
+    empty_block,
+    integrate,
+    node_count,
+    positions,
+    probe,
+    quadrature,
+    to_elements,
+    to_nodal,
+)
+from umbilical.plant.multistep import DECAY_LIMIT, EXPLICIT, IMPLICIT, amplification, courant_limit
 
 pytestmark = pytest.mark.nojit
 
@@ -40,33 +50,59 @@ def test_interpolation_is_exact_to_degree_four(position: float) -> None:
         assert interpolation_row(position) @ NODES**degree == pytest.approx(position**degree, abs=1e-14)
 
 
+@pytest.mark.parametrize("degree", range(5))
+def test_integral_is_exact_to_degree_four(degree: int) -> None:
+    exact = (NODES ** (degree + 1) - (-1.0) ** (degree + 1)) / (degree + 1)
+    np.testing.assert_allclose(INTEGRAL @ NODES**degree, exact, atol=1e-14)
+
+
 @pytest.mark.parametrize("sigma", [0.0, 0.2, 0.25, 0.5, 0.77, 1.0])
 def test_probe_reads_between_nodes(sigma: float) -> None:
+    """The displacement sigma^4 from its slope: what the elements before gained, and what is gained within."""
     element, weights = probe(sigma, 5)
-    values = positions(5)[4 * element : 4 * element + 5] ** 3
-    assert weights @ values == pytest.approx(sigma**3, abs=1e-14)
+    slopes = to_elements(4.0 * positions(5) ** 3)
+    assert integrate(slopes)[4 * element] + weights @ slopes[:, element] == pytest.approx(sigma**4, abs=1e-14)
+
+
+def test_displacement_is_the_exact_integral_of_its_slope() -> None:
+    sigma = positions(6)
+    np.testing.assert_allclose(integrate(to_elements(5.0 * sigma**4 - 1.0)), sigma**5 - sigma, atol=1e-15)
 
 
 def test_layout_there_and_back() -> None:
     nodal = np.random.default_rng(0).normal(size=(3, 4 * 6 + 1))
-    field = to_field(nodal)
-    assert field.shape == (3, 4, 7)
-    np.testing.assert_array_equal(to_nodal(field), nodal)
-    assert field[1, 0, 6] == nodal[1, 24], "the ROV"
-    assert field[1, 2, 3] == nodal[1, 14]
-    assert not field[:, 1:, 6].any()
-    assert empty_field(6).shape == field.shape[1:]
+    inside = to_elements(nodal)
+    assert inside.shape == (3, 5, 6)
+    np.testing.assert_array_equal(to_nodal(inside), nodal)
+    assert inside[1, 4, 5] == nodal[1, 24], "the ROV"
+    assert inside[1, 2, 3] == nodal[1, 14]
+    assert empty_block(6).shape == (5, 12)
     assert node_count(6) == positions(6).size == 25
 
 
-@pytest.mark.parametrize("elements", [1, 4, 9])
-def test_no_mode_of_a_uniform_cable_is_faster_than_the_bound(elements: int) -> None:
-    """Assembled stiffness over mass of a cable fixed at both ends, wave speed 50 m/s, elements of 10 m."""
-    size = node_count(elements)
-    stiffness, mass = np.zeros((size, size)), quadrature(elements) * 10.0 * elements
-    element = DERIVATIVE.T @ (WEIGHTS[:, None] * DERIVATIVE) * 2.0 / 10.0
-    for e in range(elements):
-        stiffness[4 * e : 4 * e + 5, 4 * e : 4 * e + 5] += element * 50.0**2
-    free = np.linalg.eigvals(stiffness / mass[:, None]).real
-    assert np.sqrt(free.max()) <= highest_frequency(50.0, 10.0) * (1.0 + 1e-12)
-    assert np.sqrt(free.max()) > 0.8 * highest_frequency(50.0, 10.0)
+def test_an_interface_is_told_as_the_mean_of_its_sides() -> None:
+    inside = np.zeros((5, 2))
+    inside[4, 0], inside[0, 1] = 1.0, 4.0
+    assert to_nodal(inside)[4] == 2.5
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_multistep_weights_are_exact_for_polynomials(order: int) -> None:
+    """The integral over (0, 1) of a polynomial, from its values at 0, -1, -2; or at 1, 0, -1."""
+    for power in range(order):
+        past = EXPLICIT[order - 1] @ np.array([0.0, -1.0, -2.0]) ** power
+        assert past == pytest.approx(1.0 / (power + 1), abs=1e-15)
+    for row, weights in enumerate(IMPLICIT):
+        for power in range(row + 2):
+            assert weights @ np.array([1.0, 0.0, -1.0]) ** power == pytest.approx(1.0 / (power + 1), abs=1e-15)
+
+
+def test_no_wave_of_the_grid_grows_at_the_courant_limit_and_some_do_beyond() -> None:
+    spectrum = upwind_spectrum()
+    assert np.real(spectrum).max() < 1e-12, "the upwind flux feeds nothing"
+    assert amplification(courant_limit() * spectrum).max() < 1.0 + 1e-6
+    assert amplification(1.02 * courant_limit() * spectrum).max() > 1.0 + 1e-3
+
+
+def test_a_decay_at_its_limit() -> None:
+    assert amplification(np.array([-0.999 * DECAY_LIMIT])) < 1.0 < amplification(np.array([-1.001 * DECAY_LIMIT]))

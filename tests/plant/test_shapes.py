@@ -9,8 +9,9 @@ import pytest
 
 from tests.support.scenarios import constant, open_loop
 from umbilical.plant.exogenous import profiles
-from umbilical.plant.initial import initial_displacement
-from umbilical.plant.layout import positions
+from umbilical.plant.initial import initial_slopes
+from umbilical.plant.layout import integrate, positions
+from umbilical.plant.signals import vessel
 
 pytestmark = pytest.mark.nojit
 
@@ -18,7 +19,8 @@ SIGMA = positions(6)
 
 
 def started(**overrides: Any) -> np.ndarray:
-    return initial_displacement(open_loop(winch__length=200.0, grid__elements=6, **overrides))
+    scenario = open_loop(winch__length=200.0, grid__elements=6, **overrides)
+    return vessel(scenario.environment, 0.0)[0] + integrate(initial_slopes(scenario))
 
 
 @pytest.mark.parametrize(
@@ -39,17 +41,20 @@ def started(**overrides: Any) -> np.ndarray:
     ids=lambda value: value["shape"] if isinstance(value, dict) else "",
 )
 def test_shapes_at_the_start(shape: dict[str, Any], exact: np.ndarray) -> None:
-    np.testing.assert_allclose(started(initial=shape), exact, rtol=1e-12, atol=1e-14)
+    """At the interfaces to the last digits; inside, as near as a polynomial of an element comes."""
+    found = started(initial=shape)
+    np.testing.assert_allclose(found[::4], exact[::4], atol=1e-12)
+    np.testing.assert_allclose(found, exact, atol=4e-2 if shape["shape"] == "gaussian" else 2e-5)
 
 
 def test_static_shape_under_constant_tension_is_a_line() -> None:
     shape = started(initial={"shape": "static", "force": 50.0}, cable__wet_line_density=0.0)
-    np.testing.assert_allclose(shape, 50.0 * 200.0 * SIGMA / 5000.0, rtol=1e-13)
+    np.testing.assert_allclose(shape, 50.0 * 200.0 * SIGMA / 5000.0, rtol=1e-13, atol=1e-14)
 
 
 def test_static_shape_of_a_very_light_cable_keeps_its_digits() -> None:
     shape = started(initial={"shape": "static", "force": 50.0}, cable__wet_line_density=1e-9)
-    np.testing.assert_allclose(shape, 50.0 * 200.0 * SIGMA / 5000.0, rtol=1e-8)
+    np.testing.assert_allclose(shape, 50.0 * 200.0 * SIGMA / 5000.0, rtol=1e-8, atol=1e-14)
 
 
 def test_the_upper_end_is_where_the_vessel_is() -> None:

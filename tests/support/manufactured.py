@@ -17,9 +17,9 @@ from umbilical.engine.loop import World, advance_period
 from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.plant import exogenous
-from umbilical.plant.cable import DISPLACEMENT, VELOCITY
+from umbilical.plant.cable import PRESENT, TIP_VELOCITY
 from umbilical.plant.exogenous import Inputs
-from umbilical.plant.layout import positions, to_field, to_nodal
+from umbilical.plant.layout import integrate, positions, to_elements, to_nodal
 
 DENSITY, MASS, GRAVITY, DAMPING, TIP_DAMPING = 2.0, 50.0, 10.0, 0.3, 5.0
 GROWING, SHRINKING = 4.0, -4.0
@@ -30,6 +30,7 @@ class Problem(NamedTuple):
     """The solution and what drives it, as functions of numpy arrays: ``(x, t)`` or ``(t,)``."""
 
     displacement: Any
+    slope: Any
     velocity: Any
     load: Any
     force: Any
@@ -55,9 +56,9 @@ def problem(drift: float) -> Problem:
     vessel = y.subs(x, 0)
     net = GRAVITY - acceleration
     world = [length, speed, acceleration, net, jerk / net, vessel, sympy.diff(vessel, t)]
-    along = [sympy.lambdify((x, t), q, "numpy", cse=True) for q in (y, velocity, load)]
+    along = [sympy.lambdify((x, t), q, "numpy", cse=True) for q in (y, sympy.diff(y, x), velocity, load)]
     at_ends = [sympy.lambdify(t, q, "numpy", cse=True) for q in (force.subs(x, length), world)]
-    return Problem(along[0], along[1], along[2], at_ends[0], at_ends[1])
+    return Problem(*along, *at_ends)
 
 
 def solve(drift: float, elements: int, step: float) -> tuple[np.ndarray, np.ndarray]:
@@ -66,8 +67,10 @@ def solve(drift: float, elements: int, step: float) -> tuple[np.ndarray, np.ndar
     inputs = _inputs(drift, elements, step)
     enter_step(world.plant, world.state, inputs, 0)
     advance_period(world, inputs, 0, inputs.dt.size)
-    fields = world.state.fields
-    return to_nodal(fields[DISPLACEMENT, :4]), to_nodal(fields[VELOCITY, :4])
+    slopes, velocities = world.state.blocks[PRESENT, :, :elements], world.state.blocks[PRESENT, :, elements:]
+    velocity = to_nodal(velocities)
+    velocity[-1] = world.state.ends[TIP_VELOCITY]
+    return world.state.now[exogenous.VESSEL] + integrate(slopes), velocity
 
 
 def exact(drift: float, elements: int, t: float = UNTIL) -> tuple[np.ndarray, np.ndarray]:
@@ -84,10 +87,13 @@ def _world(drift: float, elements: int) -> World:
     )  # fmt: skip
     world = set_up(scenario).world
     nodes = 4 * elements + 1
-    cable = world.plant.cable._replace(profiles=to_field(np.eye(nodes)))
+    cable = world.plant.cable._replace(profiles=np.ascontiguousarray(to_elements(np.eye(nodes))))
     state = world.state._replace(loads=np.zeros(nodes))
     displacement, velocity = exact(drift, elements, 0.0)
-    state.fields[DISPLACEMENT, :4], state.fields[VELOCITY, :4] = to_field(displacement), to_field(velocity)
+    slope = problem(drift).slope(positions(elements) * problem(drift).world(0.0)[0], 0.0)
+    state.blocks[PRESENT, :, :elements] = to_elements(slope) * problem(drift).world(0.0)[0]
+    state.blocks[PRESENT, :, elements:] = to_elements(velocity)
+    state.ends[TIP_VELOCITY] = velocity[-1]
     state.now[exogenous.VESSEL] = displacement[0]
     return world._replace(plant=world.plant._replace(cable=cable), state=state)
 

@@ -10,16 +10,14 @@ from scipy.optimize import brentq
 from scipy.special import jv, yv
 
 from umbilical import Scenario
-from umbilical.engine.linear import step_matrix
+from umbilical.engine.linear import step_poles
 
 
 def engine_poles(scenario: Scenario, count: int) -> np.ndarray:
     """The ``count`` slowest poles above the real axis, 1/s, of the engine's own step."""
-    multipliers = np.linalg.eigvals(step_matrix(scenario))
-    # The acceleration kept from step to step adds multipliers near 0 that belong to no mode.
-    poles = np.log(multipliers[np.abs(multipliers) > 0.5]) / scenario.grid.step
-    upper = poles[poles.imag > 1e-9]
-    return upper[np.argsort(upper.imag)][:count]
+    poles = step_poles(scenario)
+    # Waves too short for the grid decay within a period or two: they belong to no mode of the cable.
+    return poles[(poles.imag > 1e-9) & (poles.real > -0.3 * poles.imag)][:count]
 
 
 def bessel_frequencies(

@@ -37,8 +37,9 @@ CHECKS = (
     sampling.disturbance_observer,
     sampling.adaptation,
     sampling.motor_loop,
-    steps.cable,
+    steps.waves,
     steps.damping,
+    steps.waves_that_leave,
     steps.motors,
     timeline.marks,
 )

@@ -9,16 +9,17 @@ import numpy as np
 
 from umbilical.admission.findings import Finding, amount
 from umbilical.admission.motion import sampled_winch
+from umbilical.admission.timeline import MOST_STEPS
 from umbilical.errors import Problem
-from umbilical.plant.elements import highest_frequency
+from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Motor, Payload
-from umbilical.scenario.scenario import Grid
+from umbilical.scenario.scenario import Grid, Scenario
 from umbilical.scenario.winch import Winch
 
-_VERLET = 1.8
-"""Largest product of step and angular frequency; velocity Verlet is stable below 2."""
+_MARGIN = 0.9
+"""Share of the multistep method's limits that a step may take: those are for uniform cables."""
 _RUNGE_KUTTA = 2.5
 """Largest product of step and pole; the classical fourth-order method is stable below 2.785 on the real axis."""
 _USUAL_SPEED = 100.0
@@ -26,12 +27,76 @@ _USUAL_SPEED = 100.0
 
 
 def plant_step(control: Control, grid: Grid) -> float:
-    """The step taken, s: the control period in as few equal parts as ``grid.step`` allows."""
-    parts = min(control.period / grid.step, 1e15)  # a step of 1e-320 s has its own problem: the size of the run
-    return control.period / ceil(parts * (1.0 - 1e-9))
+    """The largest step taken, s: the control period in as few equal parts as ``grid.step`` allows."""
+    return _whole_part(control.period, grid.step)
 
 
-def cable(
+def chosen_step(scenario: Scenario) -> float:
+    """The step taken, s: as :func:`plant_step`, and short enough for the waves on the cable all through the run.
+
+    >>> import umbilical
+    >>> chosen_step(umbilical.load("paper")), chosen_step(umbilical.load("paper", {"grid.elements": 400}))
+    (0.001, 0.0003333333333333333)
+    """
+    waves = wave_step(
+        scenario.cable, scenario.payload, scenario.environment, scenario.winch, scenario.duration, scenario.grid
+    )
+    return _whole_part(scenario.control.period, min(scenario.grid.step, waves))
+
+
+def _whole_part(period: float, largest: float) -> float:
+    parts = min(period / largest, 1e15)  # a step of 1e-320 s has its own problem: the size of the run
+    return period / ceil(parts * (1.0 - 1e-9))
+
+
+def wave_step(
+    cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
+) -> float:
+    """Longest stable step for the fastest wave in the shortest element throughout the run, s."""
+    if not (sampled := sampled_winch(winch, duration)):
+        return float("inf")  # the winch has its own problem
+    _, motion = sampled
+    net = np.maximum(environment.gravity - motion.acceleration, 0.0)
+    tension = (payload.mass + cable.hanging_density * motion.length) * net
+    speed = np.sqrt(tension / cable.line_density) + np.abs(motion.speed)
+    crossing = float(np.min(np.maximum(motion.length, 0.0) / speed))
+    return _MARGIN * courant_limit() * crossing / grid.elements if crossing > 0.0 else float("inf")
+
+
+def waves(
+    cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
+) -> Iterator[Finding]:
+    """The steps that the waves demand are not absurdly many."""
+    step = wave_step(cable, payload, environment, winch, duration, grid)
+    if step * MOST_STEPS < duration:
+        yield Problem(
+            "grid.elements",
+            str(grid.elements),
+            f"{MOST_STEPS:g} steps of the plant, not {duration / step:.3g}",
+            f"waves cross an element of this cable in so short a time that a step may last {step:.3g} s at most",
+            "fewer grid.elements, or check cable.line_density, payload.mass and environment.gravity",
+        )
+
+
+def damping(cable: Cable, payload: Payload, control: Control, grid: Grid) -> Iterator[Finding]:
+    """Damping is explicit too: within a step it takes less than about half of the speed."""
+    step = plant_step(control, grid)
+    for key, coefficient, unit, inertia in (
+        ("cable.damping", cable.damping, "N s/m2", cable.line_density),
+        ("payload.damping", payload.damping, "N s/m", payload.mass),
+    ):
+        limit = _MARGIN * DECAY_LIMIT * inertia / step
+        if coefficient >= limit:
+            yield Problem(
+                key,
+                amount(coefficient, unit),
+                f"below {limit:.6g} {unit} at a step of {step:g} s",
+                "within one step it would take more than half of the speed",
+                "a smaller grid.step",
+            )
+
+
+def waves_that_leave(
     cable: Cable,
     payload: Payload,
     environment: Environment,
@@ -40,43 +105,20 @@ def cable(
     control: Control,
     grid: Grid,
 ) -> Iterator[Finding]:
-    """The step resolves the fastest wave between two nodes, throughout the run."""
+    """The ROV loses momentum to the waves it sends up the cable, at the rate ``sqrt(rho T)/m``."""
     if not (sampled := sampled_winch(winch, duration)):
         return
-    _, motion = sampled
-    net = np.maximum(environment.gravity - motion.acceleration, 0.0)
-    tension = (payload.mass + cable.hanging_density * motion.length) * net
-    speed = np.sqrt(tension / cable.line_density) + np.abs(motion.speed)
-    worst = int(np.argmax(speed / motion.length))
-    element = float(motion.length[worst]) / grid.elements
-    if element <= 0.0:
-        return  # the length has its own problem
-    limit = _VERLET / highest_frequency(float(speed[worst]), element)
-    if plant_step(control, grid) > limit:
+    net = float(np.max(environment.gravity - sampled[1].acceleration))
+    step, impedance = plant_step(control, grid), sqrt(cable.line_density * payload.mass * max(net, 0.0))
+    limit = impedance * step / (_MARGIN * DECAY_LIMIT)
+    if payload.mass < limit:
         yield Problem(
-            "grid.step",
-            amount(plant_step(control, grid), "s"),
-            f"at most {limit:.4g} s",
-            f"waves of {speed[worst]:.4g} m/s cross elements of {element:.4g} m; the scheme is explicit",
-            "a smaller grid.step or fewer grid.elements",
+            "payload.mass",
+            amount(payload.mass, "kg"),
+            f"at least {limit:.6g} kg at a step of {step:g} s",
+            f"the cable resists with {impedance:.4g} N s/m and would take more than half of its speed within a step",
+            "a smaller grid.step",
         )
-
-
-def damping(cable: Cable, payload: Payload, control: Control, grid: Grid) -> Iterator[Finding]:
-    """Damping is explicit too: within a step it takes less than all of the speed."""
-    step = plant_step(control, grid)
-    for key, coefficient, unit, inertia in (
-        ("cable.damping", cable.damping, "N s/m2", cable.line_density),
-        ("payload.damping", payload.damping, "N s/m", payload.mass),
-    ):
-        if step * coefficient >= inertia:
-            yield Problem(
-                key,
-                amount(coefficient, unit),
-                f"below {inertia / step:.6g} {unit} at a step of {step:g} s",
-                "within one step it would take more than all of the speed",
-                "a smaller grid.step",
-            )
 
 
 def motors(motors: Sequence[Motor], ideal_thruster: bool, control: Control, grid: Grid) -> Iterator[Finding]:

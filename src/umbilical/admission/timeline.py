@@ -20,7 +20,7 @@ from umbilical.scenario.scenario import Grid, Output
 from umbilical.scenario.signals import Pulse, Signal, Table
 from umbilical.scenario.winch import TabulatedLength, Winch
 
-_MOST_STEPS = 1e8
+MOST_STEPS = 1e8
 _MOST_STORED = 1e8
 
 
@@ -52,12 +52,12 @@ def grid_of_time(duration: float, control: Control, output: Output) -> Iterator[
 def size_of_the_run(duration: float, control: Control, grid: Grid, output: Output) -> Iterator[Finding]:
     """Neither the steps nor the stored numbers are absurd."""
     count = duration / min(grid.step, control.period)
-    if count > _MOST_STEPS:
+    if count > MOST_STEPS:
         reason = "such a run would take hours"
         yield Problem(
             "duration",
             amount(duration, "s"),
-            f"{_MOST_STEPS:g} steps of the plant, not {count:.3g}",
+            f"{MOST_STEPS:g} steps of the plant, not {count:.3g}",
             reason,
             "a shorter run, or a larger grid.step and control.period",
         )

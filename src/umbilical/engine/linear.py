@@ -1,48 +1,106 @@
-"""The engine's own step as a matrix: what frequencies, margins and spectra are read from.
+"""The engine's own step as matrices: what frequencies, margins and spectra are read from.
 
-The step of cable and ROV is linear, so applying it to unit vectors gives its Jacobian to round-off: no
-second discretisation that could differ from the one that runs.
+The rates of cable and ROV are linear in their state, so evaluating them at unit vectors gives their Jacobian to
+round-off: no second discretisation that could differ from the one that runs. The state lists the slopes and
+velocities of a block (5, 2 n) as they lie in memory (``plant/layout.py``), then the ROV's velocity: 10 n + 1.
 """
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any, NamedTuple
 
-from umbilical.engine.loop import World, advance_period
+import numpy as np
+from scipy import sparse
+
+from umbilical.control.contract import TIP_DISPLACEMENT, TIP_SLOPE, TIP_SLOPE_RATE, TIP_VELOCITY
+from umbilical.engine.loop import World
+from umbilical.engine.sensing import read_truth
 from umbilical.engine.simulate import set_up
-from umbilical.engine.stepping import enter_step
+from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.plant import winch
-from umbilical.plant.cable import ACCELERATION, DISPLACEMENT, VELOCITY
-from umbilical.plant.exogenous import Inputs, Outside, Steps
-from umbilical.plant.layout import to_field, to_nodal
+from umbilical.plant.cable import PRESENT, RATES, TIP_RATES
+from umbilical.plant.cable import TIP_VELOCITY as VELOCITY_OF_PAYLOAD
+from umbilical.plant.exogenous import Outside, Steps
+from umbilical.plant.multistep import EXPLICIT
 from umbilical.scenario.scenario import Scenario
 
-_FIELDS = (DISPLACEMENT, VELOCITY, ACCELERATION)
+SAMPLES = (TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, TIP_SLOPE_RATE)
 
 
-def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
-    """One step of cable and ROV with the winch stopped, no load and no thrust, eqs. (6)-(8).
+class Linear(NamedTuple):
+    """Cable and ROV with the winch stopped, as the engine sees them: ``x' = rates x + push F``, ``z = samples x``.
+
+    Attributes:
+        rates: sparse, shape (10 n + 1, 10 n + 1), 1/s.
+        push: rate per newton of force on the ROV, shape (10 n + 1,).
+        samples: y(l,t), y_x(l,t), Dy/Dt(l,t) and D(y_x)/Dt(l,t) from the state, shape (4, 10 n + 1).
+        step: step of the plant, s. The engine advances the rates by the third-order Adams-Bashforth weights
+            ``b = (23, -16, 5)/12``, so with a force F that is held for the step, in terms of the shift z by one step,
+            ``x = ((z - 1) I - step (b0 + b1/z + b2/z^2) rates)^-1 step push F``.
+    """
+
+    rates: sparse.csc_array
+    push: np.ndarray
+    samples: np.ndarray
+    step: float
+
+
+def linearise(scenario: Scenario, time: float = 0.0) -> Linear:
+    """Rates of cable and ROV with the winch stopped, no load and no thrust, eqs. (6)-(8).
 
     Args:
         scenario: its cable, ROV, gravity, grid and step are used; loads, vessel and controller are left out.
         time: the winch stops at the length it has then, s.
 
-    Returns:
-        The step from y, Dy/Dt and the acceleration kept from the last step, node by node from below the
-        vessel to the ROV, to the same one step later: shape (12 n, 12 n) for n elements. An eigenvalue z of
-        a mode of the cable stands for the pole ``s = log(z)/dt``, 1/s; the kept acceleration adds
-        eigenvalues near 0 that stand for none.
+    >>> import umbilical
+    >>> linearise(umbilical.load("paper", {"grid.elements": 4})).rates.shape
+    (41, 41)
+    """
+    still = _stopped(scenario, time)
+    setup = set_up(still)
+    world, step = setup.world, setup.clock.period / setup.clock.substeps
+    enter_step(world.plant, world.state, Outside(still).sample(Steps(np.zeros(1), np.full(1, step), np.zeros(0))), 0)
+    size = world.state.blocks[PRESENT].size + 1
+    columns, samples = [], np.empty((len(SAMPLES), size))
+    for k in range(size):
+        rate, samples[:, k] = _look(world, k)
+        columns.append(sparse.csc_array(rate[:, None]))
+    push = np.zeros(size)
+    push[-1] = 1.0 / still.payload.mass
+    return Linear(sparse.csc_array(sparse.hstack(columns)), push, samples, step)
+
+
+def step_poles(scenario: Scenario, time: float = 0.0) -> Any:
+    """Poles of cable and ROV as the engine's step has them, 1/s, shape (10 n + 1,), by increasing imaginary part.
+
+    A mode that changes by the factor z in a step stands for the pole ``log(z)/step``. Waves too short for the grid
+    decay fast. Arguments as for :func:`linearise`.
+    """
+    linear = linearise(scenario, time)
+    products = linear.step * np.linalg.eigvals(linear.rates.toarray())
+    poles = np.log(np.array([_principal_root(q) for q in products])) / linear.step
+    return poles[np.argsort(poles.imag)]
+
+
+def _principal_root(product: complex) -> complex:
+    """The factor z of a step that stands for ``exp(product)``; the other two of the method decay within steps."""
+    roots = np.roots(np.append(1.0, -product * EXPLICIT[2]) - np.array([0.0, 1.0, 0.0, 0.0]))
+    return roots[np.argmin(np.abs(roots - np.exp(product)))]
+
+
+def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
+    """One step from the state and its last two rates to the same one step later, shape (30 n + 3, 30 n + 3).
+
+    Arguments as for :func:`linearise`.
 
     >>> import umbilical
     >>> step_matrix(umbilical.load("paper", {"grid.elements": 4})).shape
-    (48, 48)
+    (123, 123)
     """
-    still = _stopped(scenario, time)
-    world = set_up(still).world
-    inputs = Outside(still).sample(Steps(np.zeros(1), np.full(1, still.grid.step), np.zeros(0)))
-    size = len(_FIELDS) * 4 * still.grid.elements
-    columns = [_step(world, inputs, unit) for unit in np.eye(size)]
-    return np.stack(columns, axis=1)
+    linear = linearise(scenario, time)
+    rates, (now, last, before) = linear.rates.toarray(), linear.step * EXPLICIT[2]
+    one, none = np.eye(rates.shape[0]), np.zeros_like(rates)
+    return np.block([[one + now * rates, last * one, before * one], [rates, none, none], [none, one, none]])
 
 
 def _stopped(scenario: Scenario, time: float) -> Scenario:
@@ -61,13 +119,14 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
     )
 
 
-def _step(world: World, inputs: Inputs, start: np.ndarray) -> np.ndarray:
-    """One step from the fields in ``start``, all nodes but the vessel's, one field after the other."""
-    fields = world.state.fields
-    values = np.pad(start.reshape(len(_FIELDS), -1), ((0, 0), (1, 0)))
-    for place in (DISPLACEMENT, VELOCITY):
-        fields[place, :4] = to_field(values[_FIELDS.index(place)])
-    enter_step(world.plant, world.state, inputs, 0)
-    fields[ACCELERATION, :4] = to_field(values[_FIELDS.index(ACCELERATION)])
-    advance_period(world, inputs, 0, 1)
-    return np.concatenate([to_nodal(fields[place, :4])[1:] for place in _FIELDS])
+def _look(world: World, k: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rates and samples at the k-th unit vector of the state."""
+    state = world.state
+    block, ends = state.blocks[PRESENT], state.ends
+    unit = np.zeros(block.size + 1)
+    unit[k] = 1.0
+    block.flat[:], ends[VELOCITY_OF_PAYLOAD] = unit[:-1], unit[-1]
+    find_rates(world.plant, state)
+    read_truth(state, world.readings)
+    rate = np.append(state.blocks[RATES].ravel(), ends[TIP_RATES])
+    return rate, world.readings.boundary[list(SAMPLES)]

@@ -21,10 +21,10 @@ from umbilical.control.contract import (
 )
 from umbilical.engine.sensing import true_slope_rate
 from umbilical.engine.stepping import DELIVERED, SINCE_START, PlantState
-from umbilical.plant.cable import DISPLACEMENT, SLOPE, VELOCITY
+from umbilical.plant.cable import PRESENT, TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, VESSEL_SLOPE
 from umbilical.plant.exogenous import ACCELERATION, EFFECTIVENESS, FORCE, LENGTH, SPEED, VESSEL
 from umbilical.plant.exogenous import VOLTAGE as VOLTAGE_DISTURBANCE
-from umbilical.plant.layout import probe, to_nodal
+from umbilical.plant.layout import integrate, probe, to_nodal
 from umbilical.plant.motors import CURRENT
 from umbilical.plant.motors import SPEED as ROTOR_SPEED
 from umbilical.plant.power import ALONG_TERMS, END_TERMS
@@ -37,7 +37,7 @@ SCALARS = (
 )  # fmt: skip
 WORKS = (
     "work_thrust", "work_payload_force", "work_payload_damping", "work_vessel",
-    "work_cable_damping", "work_cable_load", "work_tension",
+    "work_cable_damping", "work_cable_load", "work_tension", "work_grid",
 )  # fmt: skip
 PER_MOTOR = (
     "motor_speed", "motor_current", "motor_voltage", "demand", "speed_reference", "motor_disturbance",
@@ -59,22 +59,23 @@ class Log(NamedTuple):
         scalars: SCALARS, then WORKS.
         motors: PER_MOTOR, shape (samples, 8, motors).
         kappa: shape (samples, motors + 1).
-        fields: displacement and velocity of the nodes, shape (samples, 2, 4, n + 1).
+        blocks: slopes and velocities at the nodes, shape (samples, 5, 2 n).
     """
 
     scalars: np.ndarray
     motors: np.ndarray
     kappa: np.ndarray
-    fields: np.ndarray
+    blocks: np.ndarray
 
 
 class Tally(NamedTuple):
     """Running measures over every control sample.
 
     Attributes:
-        probes: where y(l/4), y(l/2), y(3l/4) are read: element and weights of its nodes, shape (3, 6).
+        probes: where y(l/4), y(l/2), y(3l/4) are read: element, and weights of its slopes in the displacement
+            gained in it, shape (3, 6).
         measures: largest size and sum of squares of each measure, shape (2, 10).
-        slopes: largest |y_x| so far in each element, shape (n + 1,).
+        slopes: largest |y_x| so far in each element, shape (n,).
         count: control samples so far, shape (1,).
         scales: f23 of each motor, which turns d2 into the disturbance its observer estimates.
     """
@@ -92,14 +93,14 @@ def make_log(samples: int, motors: int, elements: int) -> Log:
         np.zeros((samples, len(SCALARS) + len(WORKS))),
         np.zeros((samples, len(PER_MOTOR), motors)),
         np.zeros((samples, motors + 1)),
-        np.zeros((samples, 2, 4, elements + 1)),
+        np.zeros((samples, 5, 2 * elements)),
     )
 
 
 def make_tally(elements: int, scales: np.ndarray) -> Tally:
     """Nothing seen yet."""
     probes = np.array([[element, *weights] for element, weights in (probe(s, elements) for s in (0.25, 0.5, 0.75))])
-    return Tally(probes, np.zeros((2, 10)), np.zeros(elements + 1), np.zeros(1, dtype=np.int64), scales)
+    return Tally(probes, np.zeros((2, 10)), np.zeros(elements), np.zeros(1, dtype=np.int64), scales)
 
 
 def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
@@ -108,22 +109,38 @@ def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
     if driven:
         named |= {name: log.motors[:samples, k].copy() for k, name in enumerate(PER_MOTOR)}
         named["kappa"] = log.kappa[:samples].copy()
-    named["displacement"] = to_nodal(log.fields[:samples, 0])
-    named["velocity"] = to_nodal(log.fields[:samples, 1])
-    return named
+    return named | _along_cable(*inside(log, samples), named)
+
+
+def inside(log: Log, samples: int) -> tuple[np.ndarray, np.ndarray]:
+    """Slopes Y_sigma, m, and velocities, m/s, at the nodes of each element, each (samples, 5, n)."""
+    elements = log.blocks.shape[2] // 2
+    return log.blocks[:samples, :, :elements], log.blocks[:samples, :, elements:]
+
+
+def _along_cable(slopes: np.ndarray, velocities: np.ndarray, named: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Displacement, slope and velocity along the cable, shape (samples, 4 n + 1); at the ROV they are its own."""
+    displacement = named["vessel_displacement"][:, None] + integrate(slopes)
+    slope, velocity = to_nodal(slopes) / named["length"][:, None], to_nodal(velocities)
+    displacement[:, -1], velocity[:, -1] = named["tip_displacement"], named["tip_velocity"]
+    slope[:, 0], slope[:, -1] = named["vessel_slope"], named["tip_slope"]
+    return {"displacement": displacement, "slope": slope, "velocity": velocity}
 
 
 @kernel
 def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
     """Keep the largest slopes; False if one is beyond :data:`STEEPEST` or not a number."""
-    g = state.fields[SLOPE]
-    n = g.shape[1] - 1
-    scale = 2.0 * n / state.now[LENGTH]
+    x = state.blocks[PRESENT]
+    n = slopes.size
+    scale = 1.0 / state.now[LENGTH]
+    x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     for e in range(n):
-        largest = max(max(max(abs(g[0, e]), abs(g[1, e])), max(abs(g[2, e]), abs(g[3, e]))), abs(g[4, e]))
+        largest = max(max(max(abs(x0[e]), abs(x1[e])), max(abs(x2[e]), abs(x3[e]))), abs(x4[e]))
         # A maximum may lose what is not a number; the product with zero does not, nor does the comparison.
-        slope = scale * largest + 0.0 * (g[0, e] + g[1, e] + g[2, e] + g[3, e] + g[4, e])
+        slope = scale * largest + 0.0 * (x0[e] + x1[e] + x2[e] + x3[e] + x4[e])
         slopes[e] = slopes[e] if slope <= slopes[e] else slope
+    tip = abs(state.ends[TIP_SLOPE])
+    slopes[n - 1] = slopes[n - 1] if tip <= slopes[n - 1] else tip
     steep = 0
     for e in range(n):
         steep += 0 if slopes[e] <= STEEPEST else 1
@@ -140,18 +157,17 @@ def note(tally: Tally, place: int, value: float) -> None:
 @glue
 def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bool) -> bool:
     """Take one control sample into the tally; False if the model has ended (non-finite, or too steep)."""
-    y = state.fields[DISPLACEMENT]
-    n = y.shape[1] - 1
+    x, tip = state.blocks[PRESENT], state.ends[TIP_DISPLACEMENT]
     for p in range(3):
         e, w = int(tally.probes[p, 0]), tally.probes[p]
-        value = w[1] * y[0, e] + w[2] * y[1, e] + w[3] * y[2, e] + w[4] * y[3, e] + w[5] * y[0, e + 1]
-        note(tally, QUARTER + p, value)
-    note(tally, TIP, y[0, n])
+        gained = w[1] * x[0, e] + w[2] * x[1, e] + w[3] * x[2, e] + w[4] * x[3, e] + w[5] * x[4, e]
+        note(tally, QUARTER + p, state.starts[e] + gained)
+    note(tally, TIP, tip)
     if after_fault:
-        note(tally, TIP_AFTER_FAULT, y[0, n])
+        note(tally, TIP_AFTER_FAULT, tip)
     note(tally, COMMAND, decision.outer[THRUST_COMMAND])
     note(tally, THRUST, state.now[DELIVERED])
-    finite = np.isfinite(y[0, n]) and np.isfinite(state.now[DELIVERED])
+    finite = np.isfinite(tip) and np.isfinite(state.ends[TIP_VELOCITY]) and np.isfinite(state.now[DELIVERED])
     for k in range(state.motors.shape[1]):
         note(tally, MOTOR_VOLTAGE, decision.motors[VOLTAGE, k])
         note(tally, MOTOR_SPEED, state.motors[ROTOR_SPEED, k])
@@ -168,10 +184,9 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     store_scalars(log.scalars[row], state, decision)
     for k in range(kappa.size):
         log.kappa[row, k] = kappa[k]
-    for node in range(4):
-        for e in range(state.fields.shape[2]):
-            log.fields[row, 0, node, e] = state.fields[DISPLACEMENT, node, e]
-            log.fields[row, 1, node, e] = state.fields[VELOCITY, node, e]
+    for node in range(state.blocks.shape[1]):
+        for column in range(state.blocks.shape[2]):
+            log.blocks[row, node, column] = state.blocks[PRESENT, node, column]
     for k in range(state.motors.shape[1]):
         out = log.motors[row, :, k]
         out[0], out[1] = state.motors[ROTOR_SPEED, k], state.motors[CURRENT, k]
@@ -184,13 +199,10 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
 @kernel
 def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> None:
     """SCALARS, then WORKS, in their order."""
-    now, outer = state.now, decision.outer
-    n = state.fields.shape[2] - 1
-    strain = 2.0 * n / now[LENGTH]
+    now, outer, ends = state.now, decision.outer, state.ends
     out[0], out[1], out[2], out[3] = now[LENGTH], now[SPEED], now[ACCELERATION], now[VESSEL]
-    out[4] = strain * state.fields[SLOPE, 0, 0]
-    out[5], out[6] = state.fields[DISPLACEMENT, 0, n], state.fields[VELOCITY, 0, n]
-    out[7], out[8] = strain * state.fields[SLOPE, 4, n - 1], true_slope_rate(state)
+    out[4], out[5], out[6] = ends[VESSEL_SLOPE], ends[TIP_DISPLACEMENT], ends[TIP_VELOCITY]
+    out[7], out[8] = ends[TIP_SLOPE], true_slope_rate(state)
     out[9], out[10] = outer[THRUST_COMMAND], outer[BOUNDARY_ERROR]
     out[11], out[12] = outer[VELOCITY_ESTIMATE], outer[SLOPE_RATE_ESTIMATE]
     out[13], out[14], out[15] = outer[DISTURBANCE_ESTIMATE], now[FORCE], now[DELIVERED]
@@ -199,6 +211,10 @@ def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> Non
         out[17 + term] = state.power_ends[SINCE_START, term]
     for term in range(ALONG_TERMS):
         work = 0.0
-        for e in range(n):
+        for e in range(state.power_along.shape[2]):
             work += state.power_along[SINCE_START, term, e]
         out[17 + END_TERMS + term] = work
+    taken = 0.0
+    for f in range(state.losses.shape[1]):
+        taken += state.losses[SINCE_START, f]
+    out[17 + END_TERMS + ALONG_TERMS] = taken

@@ -20,7 +20,7 @@ from umbilical.control.contract import (
     Readings,
 )
 from umbilical.engine.stepping import PlantState
-from umbilical.plant.cable import DISPLACEMENT, SLOPE, TIP_ROW, VELOCITY
+from umbilical.plant import cable
 from umbilical.plant.exogenous import ACCELERATION, LENGTH, SPEED
 from umbilical.plant.motors import CURRENT
 from umbilical.plant.motors import SPEED as ROTOR_SPEED
@@ -88,22 +88,25 @@ class Dice:
 
 @kernel
 def true_slope_rate(state: PlantState) -> float:
-    """D(y_x)/Dt at the ROV: the slope of the velocity there, 1/s."""
-    n = state.fields.shape[2] - 1
-    w, e = state.fields[VELOCITY], n - 1
-    d = TIP_ROW
-    slope = d[0] * w[0, e] + d[1] * w[1, e] + d[2] * w[2, e] + d[3] * w[3, e] + d[4] * w[0, n]
+    """D(y_x)/Dt at the ROV: the slope of the velocity there, 1/s.
+
+    With the ROV's velocity imposed as the flux imposes it; so it follows a jump of the thrust at the grid's pace.
+    """
+    x = state.blocks[cable.PRESENT]
+    n = x.shape[1] // 2
+    last, d = 2 * n - 1, cable.TIP_ROW
+    slope = d[0] * x[0, last] + d[1] * x[1, last] + d[2] * x[2, last] + d[3] * x[3, last] + d[4] * x[4, last]
+    slope += cable.LIFT * (state.ends[cable.TIP_VELOCITY] - x[4, last])
     return 2.0 * n / state.now[LENGTH] * slope
 
 
 @glue
 def read_truth(state: PlantState, readings: Readings) -> None:
     """Perfect readings."""
-    n = state.fields.shape[2] - 1
-    out = readings.boundary
-    out[TIP_DISPLACEMENT] = state.fields[DISPLACEMENT, 0, n]
-    out[TIP_SLOPE] = 2.0 * n / state.now[LENGTH] * state.fields[SLOPE, 4, n - 1]
-    out[TIP_VELOCITY] = state.fields[VELOCITY, 0, n]
+    out, ends = readings.boundary, state.ends
+    out[TIP_DISPLACEMENT] = ends[cable.TIP_DISPLACEMENT]
+    out[TIP_SLOPE] = ends[cable.TIP_SLOPE]
+    out[TIP_VELOCITY] = ends[cable.TIP_VELOCITY]
     out[TIP_SLOPE_RATE] = true_slope_rate(state)
     out[READ_LENGTH], out[PAYOUT_SPEED] = state.now[LENGTH], state.now[SPEED]
     out[PAYOUT_ACCELERATION] = state.now[ACCELERATION]

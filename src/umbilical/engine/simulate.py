@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.admission import admit
-from umbilical.analysis.energy import energy, relative_residual, residual
+from umbilical.admission.steps import chosen_step
+from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
 from umbilical.control import cascade
 from umbilical.control.contract import Controller, make_decision, make_readings
 from umbilical.engine import loop
@@ -27,8 +28,10 @@ from umbilical.engine.recording import (
     TIP,
     TIP_AFTER_FAULT,
     WORKS,
+    Log,
     Tally,
     channels,
+    inside,
     make_log,
     make_tally,
 )
@@ -37,7 +40,7 @@ from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
 from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.plant import faults
-from umbilical.plant.cable import DISPLACEMENT
+from umbilical.plant.cable import TIP_DISPLACEMENT
 from umbilical.plant.exogenous import Outside, published_jumps
 from umbilical.plant.layout import positions
 from umbilical.relations.formulas import motor_constants
@@ -116,7 +119,7 @@ def set_up(scenario: Scenario, controller: Controller | None = None) -> Setup:
     period, every = scenario.control.period, 1
     if controller is not None:
         period, every = _periods(scenario, controller)
-    clock = make_clock(scenario.duration, period, scenario.grid.step, published_jumps(scenario))
+    clock = make_clock(scenario.duration, period, chosen_step(scenario), published_jumps(scenario))
     motors = len(scenario.motors)
     sensors = make_sensors(scenario)
     world = loop.World(
@@ -229,14 +232,11 @@ def _assemble(
     if ending.status is Status.COMPLETED and setup.record.log.scalars.shape[0] > samples:
         samples, times = samples + 1, np.append(times, scenario.duration)
     named = channels(setup.record.log, samples, bool(scenario.motors))
-    metrics = _metrics(setup.record.tally, float(setup.world.state.fields[DISPLACEMENT, 0, -1]))
+    metrics = _metrics(setup.record.tally, float(setup.world.state.ends[TIP_DISPLACEMENT]))
     if not scenario.faults:
         del metrics["tip_peak_after_fault"]
     if samples:
-        works = np.stack([named[name] for name in WORKS], axis=1)
-        named["energy"] = energy(scenario, named)
-        named["energy_residual"] = residual(named["energy"], works)
-        metrics["energy_balance_residual"] = relative_residual(named["energy"], works)
+        metrics |= _balance(scenario, setup.record.log, named)
     return assemble(
         scenario,
         named,
@@ -249,6 +249,19 @@ def _assemble(
         notices=notices,
         sigma=positions(scenario.grid.elements),
     )
+
+
+def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
+    """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
+    motion = {name: named[name] for name in ("tip_velocity", "length", "payout_acceleration")}
+    works = np.stack([named[name] for name in WORKS], axis=1)
+    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion)
+    named["energy_residual"] = residual(named["energy"], works)
+    lost = float(np.abs(named["work_grid"][-1]))
+    return {
+        "energy_balance_residual": relative_residual(named["energy"], works),
+        "grid_loss": lost / scale_of(named["energy"], works) if lost else 0.0,
+    }
 
 
 def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:

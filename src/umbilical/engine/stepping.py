@@ -1,4 +1,4 @@
-"""One step of the plant: motors first, then cable and ROV under the thrust they deliver; works are added up."""
+"""One step of the plant: cable and ROV by a multistep method, motors by Runge-Kutta; works are added up."""
 
 from __future__ import annotations
 
@@ -8,20 +8,19 @@ import numpy as np
 
 from umbilical.compile import entry_kernel, glue
 from umbilical.plant.cable import (
-    ACCELERATION as CABLE_ACCELERATION,
-)
-from umbilical.plant.cable import (
-    DISPLACEMENT,
-    FRESH,
-    SLOPE,
-    VELOCITY,
+    ENDS,
+    PRESENT,
+    RATES,
+    TIP_DISPLACEMENT,
+    TIP_RATES,
+    TIP_VELOCITY,
     Cable,
-    correct,
+    add_up_displacement,
     evaluate,
-    kick_payload,
-    leap,
+    look_at_ends,
+    make_blocks,
     make_cable,
-    make_fields,
+    march,
 )
 from umbilical.plant.exogenous import (
     DRIVE_EFFECTIVENESS,
@@ -31,7 +30,6 @@ from umbilical.plant.exogenous import (
     FORCE,
     JERK_RATIO,
     LENGTH,
-    MIDDLE,
     NET_GRAVITY,
     SPEED,
     START,
@@ -43,8 +41,9 @@ from umbilical.plant.exogenous import (
     Inputs,
     profiles,
 )
-from umbilical.plant.initial import initial_displacement
+from umbilical.plant.initial import initial_slopes
 from umbilical.plant.motors import advance_motor, applied_voltage, make_motor_state, make_motors, thrust
+from umbilical.plant.multistep import EXPLICIT, IMPLICIT, KNOWN
 from umbilical.plant.power import (
     ALONG_TERMS,
     END_TERMS,
@@ -52,42 +51,67 @@ from umbilical.plant.power import (
     TENSION,
     THRUST,
     add_power,
-    mean_work,
     power_along,
     power_at_ends,
     strain_of_elements,
 )
+from umbilical.plant.signals import vessel
 from umbilical.scenario.scenario import Scenario
 
 DELIVERED = 8
 """Place of the delivered thrust in PlantState.now; the places before it are the rows of Inputs.world."""
-PRESENT, SINCE_START = range(2)
-"""Rows of PlantState.power_ends and power_along: power now, and its integral."""
+NOW, SINCE_START = range(2)
+"""Rows of PlantState.power_ends, power_along and losses: power now, and its integral."""
+AGE, NEWEST = range(2)
+"""Places in PlantState.history: rates known before the present one, and the place of the last of them."""
+AT_START, MEAN, BEFORE = range(3)
+"""Rows of PlantState.acting: thrust and force on the ROV at the start of a step, in its mean, one step before."""
 
 
 class Plant(NamedTuple):
-    """Constants of everything that moves; ``ideal`` delivers the commanded thrust as it is."""
+    """Constants of everything that moves; ``ideal`` delivers the commanded thrust as it is.
+
+    ``explicit`` and ``implicit`` are the weights of the multistep method, see ``plant/multistep.py``.
+    """
 
     cable: Cable
     motors: np.ndarray
     ideal: bool
+    explicit: np.ndarray
+    implicit: np.ndarray
 
 
 class PlantState(NamedTuple):
     """Everything that moves, and the outside world at the present instant.
 
     Attributes:
-        fields: the cable, shape (7, 5, n + 1), see ``plant/cable.py``.
+        blocks: slopes and velocities, their last rates and their fluxes, shape (5, 5, 2 n), see ``plant/cable.py``.
+        faces: flux where elements meet, shape (2, 2 n).
+        losses: power that the grid takes at each interface, W, and its integral, J, shape (2, n + 1).
+        ends: ROV and vessel's end, shape (7,).
+        starts: displacement at the interfaces, m, shape (n + 1,).
+        history: how many rates are known, and where the newest is, shape (2,).
+        step: length of the last step, s, shape (1,).
+        acting: thrust and force on the ROV, N, shape (3, 2).
+        weights: of the rates in the present step, s, shape (3,).
         motors: speeds and currents, shape (2, motors).
         now: rows of ``Inputs.world`` at the present instant, then the delivered thrust, shape (9,).
         motors_now: rows of ``Inputs.motors`` at the present instant, shape (6, motors).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
         power_ends: terms of the power balance at ROV and vessel, W, and their integrals, J, shape (2, 4).
-        power_along: likewise along the cable, element by element, shape (2, 3, n + 1).
+        power_along: likewise along the cable, element by element, shape (2, 3, n).
         drive: voltage U + d2 and torque d1 of one motor over a step, shape (2, 3).
     """
 
-    fields: np.ndarray
+    blocks: np.ndarray
+    faces: np.ndarray
+    losses: np.ndarray
+    ends: np.ndarray
+    starts: np.ndarray
+    history: np.ndarray
+    step: np.ndarray
+    acting: np.ndarray
+    weights: np.ndarray
     motors: np.ndarray
     now: np.ndarray
     motors_now: np.ndarray
@@ -99,33 +123,50 @@ class PlantState(NamedTuple):
 
 def make_plant(scenario: Scenario) -> Plant:
     """The true plant of a scenario."""
-    return Plant(make_cable(scenario, profiles(scenario)), make_motors(scenario.motors), scenario.ideal_thruster)
+    cable, motors = make_cable(scenario, profiles(scenario)), make_motors(scenario.motors)
+    return Plant(cable, motors, scenario.ideal_thruster, EXPLICIT, IMPLICIT)
 
 
 def make_plant_state(scenario: Scenario) -> PlantState:
     """The plant at rest in its initial shape."""
-    n, loads = len(scenario.motors), len(scenario.environment.cable_load)
-    fields = make_fields(initial_displacement(scenario))
-    now = np.zeros(9)
-    now[VESSEL] = fields[DISPLACEMENT, 0, 0]
-    ends, along = np.zeros((2, END_TERMS)), np.zeros((2, ALONG_TERMS, fields.shape[2]))
-    motors, motors_now = make_motor_state(n), np.zeros((6, n))
-    return PlantState(fields, motors, now, motors_now, np.zeros(loads), ends, along, np.zeros((2, 3)))
+    n, loads, elements = len(scenario.motors), len(scenario.environment.cable_load), scenario.grid.elements
+    state = PlantState(
+        blocks=make_blocks(initial_slopes(scenario)),
+        faces=np.zeros((2, 2 * elements)),
+        losses=np.zeros((2, elements + 1)),
+        ends=np.zeros(ENDS),
+        starts=np.zeros(elements + 1),
+        history=np.zeros(2, dtype=np.int64),
+        step=np.zeros(1),
+        acting=np.zeros((3, 2)),
+        weights=np.zeros(3),
+        motors=make_motor_state(n),
+        now=np.zeros(DELIVERED + 1),
+        motors_now=np.zeros((6, n)),
+        loads=np.zeros(loads),
+        power_ends=np.zeros((2, END_TERMS)),
+        power_along=np.zeros((2, ALONG_TERMS, elements)),
+        drive=np.zeros((2, 3)),
+    )
+    state.now[VESSEL] = vessel(scenario.environment, 0.0)[0]
+    add_up_displacement(state.blocks[PRESENT], state.starts, state.now[VESSEL])
+    state.ends[TIP_DISPLACEMENT] = state.starts[elements]
+    return state
 
 
 @entry_kernel
 def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
-    """The outside world just after the start of step i, where something jumped: forces are evaluated anew.
+    """The outside world just after the start of step i, where something jumped: rates before it no longer count.
 
     Where nothing jumped, all is as the last step left it, and this is not called.
     """
     before = state.now[NET_GRAVITY]
     look_outside(state, inputs, i, START)
     book_tension_jump(plant, state, before)
-    refresh(plant, state, CABLE_ACCELERATION)
+    state.history[AGE] = 0
     if not plant.ideal:
         state.now[DELIVERED] = present_thrust(plant, state)
-    note_power(plant, state)
+    settle(plant, state)
 
 
 @glue
@@ -152,36 +193,30 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
     after = state.now[NET_GRAVITY]
     if after != before and before > 0.0:
-        strain = state.power_along[PRESENT, TENSION]
-        strain_of_elements(plant.cable, state.fields, strain, state.now[LENGTH], after, 0.5)
+        strain = state.power_along[NOW, TENSION]
+        strain_of_elements(plant.cable, state.blocks[PRESENT], strain, state.now[LENGTH], after, 0.5)
         add_power(state.power_along[SINCE_START, TENSION], strain, 1.0 - before / after)
 
 
 @glue
-def refresh(plant: Plant, state: PlantState, target: int) -> None:
-    """Forces on the cable at the present instant, into the field ``target``."""
-    now = state.now
-    evaluate(
-        plant.cable, state.fields, target, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY], state.loads
-    )
-
-
-@glue
-def note_power(plant: Plant, state: PlantState) -> None:
-    """Terms of the power balance at the present instant."""
-    now, cable = state.now, plant.cable
-    ends = state.power_ends[PRESENT]
-    power_at_ends(cable, state.fields, ends, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
-    along = state.power_along[PRESENT]
-    power_along(cable, state.fields, along, now[LENGTH], now[NET_GRAVITY], now[JERK_RATIO], state.loads)
+def settle(plant: Plant, state: PlantState) -> None:
+    """What follows from the present state: displacement, slopes at both ends, terms of the power balance."""
+    now, cable, x, ends = state.now, plant.cable, state.blocks[PRESENT], state.ends
+    add_up_displacement(x, state.starts, now[VESSEL])
+    ends[TIP_DISPLACEMENT] = state.starts[state.starts.size - 1]
+    look_at_ends(cable, x, ends, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
+    powers = state.power_ends[NOW]
+    power_at_ends(cable, ends, powers, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
+    along = state.power_along[NOW]
+    power_along(cable, x, along, now[LENGTH], now[NET_GRAVITY], now[JERK_RATIO], state.loads)
 
 
 @glue
 def add_work(state: PlantState, time: float) -> None:
     """Let the present power work for ``time``: half a step after its start, half a step before its end."""
-    add_power(state.power_ends[SINCE_START], state.power_ends[PRESENT], time)
+    add_power(state.power_ends[SINCE_START], state.power_ends[NOW], time)
     for term in range(ALONG_TERMS):
-        add_power(state.power_along[SINCE_START, term], state.power_along[PRESENT, term], time)
+        add_power(state.power_along[SINCE_START, term], state.power_along[NOW, term], time)
 
 
 @glue
@@ -198,29 +233,84 @@ def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, volt
 
 
 @glue
+def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
+    """Cable and ROV by ``state.weights`` of the newest rate, which is evaluated here, and the two before it."""
+    now, cable, blocks, ends, weights = state.now, plant.cable, state.blocks, state.ends, state.weights
+    length, speed, gravity, vessel = now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY]
+    evaluate(cable, blocks, state.faces, state.losses[NOW], ends, newest, length, speed, gravity, vessel, state.loads)
+    old, older = (newest + 2) % 3, (newest + 1) % 3
+    loss = speed / length + cable.damping / cable.line_density
+    march(
+        blocks[PRESENT], blocks[RATES + newest], blocks[RATES + old], blocks[RATES + older], cable.moving, loss, weights
+    )
+    rates = ends[TIP_RATES : TIP_RATES + 3]
+    ends[TIP_VELOCITY] += weights[0] * rates[newest] + weights[1] * rates[old] + weights[2] * rates[older]
+
+
+@entry_kernel
+def find_rates(plant: Plant, state: PlantState) -> None:
+    """Rates at the present state into the first of their places; the state stays as it is."""
+    settle(plant, state)
+    state.weights[0], state.weights[1], state.weights[2] = 0.0, 0.0, 0.0
+    march_cable(plant, state, 0)
+
+
+@glue
+def advance_cable(plant: Plant, state: PlantState, dt: float) -> None:
+    """From the rates of the present and two past instants to the end of the step, without the forces on the ROV."""
+    for k in range(state.weights.size):
+        state.weights[k] = dt * plant.explicit[state.history[AGE], k]
+    march_cable(plant, state, (state.history[NEWEST] + 1) % 3)
+    add_power(state.losses[SINCE_START], state.losses[NOW], dt)
+
+
+@glue
+def push_payload(plant: Plant, state: PlantState, dt: float) -> None:
+    """Impulse of thrust and force on the ROV over a step; their means are left for the work they do.
+
+    Values one step before count unless something jumped since; an ideal thruster holds its thrust.
+    """
+    now, start, mean, before = state.now, state.acting[AT_START], state.acting[MEAN], state.acting[BEFORE]
+    w = plant.implicit[min(state.history[AGE], 1)]
+    mean[0] = w[0] * now[DELIVERED] + w[1] * start[0] + w[2] * before[0]
+    mean[1] = w[0] * now[FORCE] + w[1] * start[1] + w[2] * before[1]
+    if plant.ideal:
+        mean[0] = start[0]
+    before[0], before[1] = start[0], start[1]
+    state.ends[TIP_VELOCITY] += dt * (mean[0] + mean[1]) / plant.cable.payload_mass
+
+
+@glue
+def correct_first_step(plant: Plant, state: PlantState, dt: float) -> None:
+    """After a jump there is no past: the mean of the rates at both ends (Heun, order 2) replaces the first."""
+    now, x = state.now, state.blocks[PRESENT]
+    look_at_ends(plant.cable, x, state.ends, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
+    state.weights[0], state.weights[1], state.weights[2] = 0.5 * dt, -0.5 * dt, 0.0
+    march_cable(plant, state, (state.history[NEWEST] + 2) % 3)
+
+
+@glue
 def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
-    """Step i, from :func:`enter_step` on: velocity Verlet for cable and ROV, Runge-Kutta for the motors."""
-    fields, now = state.fields, state.now
-    elements = fields.shape[2] - 1
-    dt = inputs.dt[i]
-    delivered, force, tip = now[DELIVERED], now[FORCE], fields[VELOCITY, 0, elements]
+    """Step i, from :func:`enter_step` on: the multistep method for cable and ROV, Runge-Kutta for the motors."""
+    dt, now, history = inputs.dt[i], state.now, state.history
+    if abs(dt - state.step[0]) > 1e-9 * dt:  # the weights are those of equal steps
+        history[AGE] = 0
+        state.step[0] = dt
+    start, mean, before = state.acting[AT_START], state.acting[MEAN], state.ends[TIP_DISPLACEMENT]
+    start[0], start[1] = now[DELIVERED], now[FORCE]
     add_work(state, 0.5 * dt)
-    kick_payload(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
-    length, speed = inputs.world[LENGTH, MIDDLE, i], inputs.world[SPEED, MIDDLE, i]
-    top_slope = 2.0 * elements / length * fields[SLOPE, 0, 0]
-    fields[VELOCITY, 0, 0] = inputs.world[VESSEL_VELOCITY, MIDDLE, i] + speed * top_slope
-    leap(plant.cable, fields, dt, length, speed)
-    fields[DISPLACEMENT, 0, 0] = inputs.world[VESSEL, END, i]
+    advance_cable(plant, state, dt)
     look_outside(state, inputs, i, END)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, voltage)
         now[DELIVERED] = present_thrust(plant, state)
-    # The velocity at the end is predicted with the old forces of the cable, then corrected with the new ones.
-    kick_payload(plant.cable, fields, 0.5 * dt, now[LENGTH], now[DELIVERED] + now[FORCE])
-    refresh(plant, state, FRESH)
-    correct(fields, 0.5 * dt)
-    note_power(plant, state)
+    push_payload(plant, state, dt)
+    if history[AGE] == 0:
+        correct_first_step(plant, state, dt)
+    history[NEWEST] = (history[NEWEST] + 1) % 3
+    history[AGE] = min(history[AGE] + 1, KNOWN)
+    settle(plant, state)
     add_work(state, 0.5 * dt)
-    work, tip_end = state.power_ends[SINCE_START], fields[VELOCITY, 0, elements]
-    work[THRUST] += mean_work(dt, delivered, now[DELIVERED], tip, tip_end)
-    work[PAYLOAD_FORCE] += mean_work(dt, force, now[FORCE], tip, tip_end)
+    moved, work = state.ends[TIP_DISPLACEMENT] - before, state.power_ends[SINCE_START]
+    work[THRUST] += mean[0] * moved
+    work[PAYLOAD_FORCE] += mean[1] * moved

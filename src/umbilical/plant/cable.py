@@ -1,53 +1,55 @@
-"""The cable with the ROV at its end, on its moving domain: eqs. (6)-(8), discretised by Hamilton's principle.
+"""The cable with the ROV at its end, on its moving domain: eqs. (6)-(8), by upwind discontinuous Galerkin elements.
 
-On sigma = x/l(t) with the material velocity W = Dy/Dt as second unknown, and A = 1 - sigma::
+On sigma = x/l(t), with A = 1 - sigma, the slope Q = Y_sigma = l y_x and the material velocity W = Dy/Dt::
 
-    Y_t = W - (v A/l) Y_sigma
-    W_t = -(v A/l) W_sigma + [ (T Y_sigma)_sigma / l^2 - c W + f ] / rho
-    ROV (sigma = 1):     m W_t = -T Y_sigma/l - c_tip W + d + alpha
-    vessel (sigma = 0):  Y = e,  W = e' + (v/l) Y_sigma
+    Q_t     = [ W - (v A/l) Q ]_sigma
+    W_t     = [ (T/(rho l)) (Q/l) - (v A/l) W ]_sigma - (v/l + c/rho) W + f/rho
+    ROV (sigma = 1):     m V' = -T p* - c_tip V + d + alpha,   V = Dy/Dt(l,t),  p* = y_x(l,t)
+    vessel (sigma = 0):  W = e' + v y_x
 
-The Lagrangian of the cable is evaluated on the nodes of the elements (``elements.py``) with their own
-quadrature, and its Euler-Lagrange equations are the scheme. Nothing is added to make it stable: transport
-and its adjoint are exact transposes of each other, so in continuous time a fixed cable conserves its energy
-and a moving one keeps the adiabatic balance, hauling in as well as paying out; the time step adds a bounded
-ripple of second order.
+Both lines are conservation laws: the brackets are fluxes. Inside an element they are differentiated at its
+nodes (``elements.py``); where two elements meet, the flux is that of the two waves that run into the
+interface, ``W - c y_x`` from the vessel's side and ``W + c y_x`` from the ROV's, c = sqrt(T/rho). The ROV is
+met likewise: ``p* = y_x + (V - W)/c`` with the last element's own values, so that at every frequency, resolved
+or not, it feels the resistance ``Z = sqrt(rho T)`` of a cable that carries its waves away. Waves too short for
+the grid are damped, none is trapped or sent back. Stable hauling in as well as paying out.
 
-Order: 4 in the element size for the velocity and 5 for the displacement, 2 in the time step (velocity
-Verlet, one evaluation of the forces per step). All are measured in ``tests/convergence``.
+Order 5 in the element size for displacement and velocity; at the ROV higher (up to 8, measured in
+``tests/convergence``). Source of the method: Hesthaven, Warburton, *Nodal Discontinuous Galerkin Methods*, 2 and 6.
 """
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.compile import glue, kernel
 from umbilical.plant.elements import DERIVATIVE, WEIGHTS
-from umbilical.plant.layout import positions, to_field
+from umbilical.plant.layout import positions, to_elements
 from umbilical.relations.formulas import tension
 from umbilical.scenario.scenario import Scenario
 
-# Derivative on the reference element, and its adjoint under the quadrature, W^-1 D^T W, which summation by
-# parts puts on the test function. Nodes lie symmetrically, so both turn even functions into odd ones and odd
-# ones into even ones: kept as the two halves, they need half the multiplications. Constants, for the compiler.
-_ADJOINT = DERIVATIVE.T * WEIGHTS[None, :] / WEIGHTS[:, None]
+# Derivative on the reference element. Nodes lie symmetrically, so it turns even functions into odd ones and odd
+# ones into even ones: kept as the two halves, it needs half the multiplications. Constants, for the compiler.
 # Row j of the first half acts on ((f0 + f4)/2, (f1 + f3)/2, f2), of the second on ((f0 - f4)/2, (f1 - f3)/2).
 D0_EVEN, D1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in DERIVATIVE[:2])
 D0_ODD, D1_ODD, D2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in DERIVATIVE[:3])
-G0_EVEN, G1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in _ADJOINT[:2])
-G0_ODD, G1_ODD, G2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in _ADJOINT[:3])
 TIP_ROW = tuple(float(d) for d in DERIVATIVE[4])
-
-END_WEIGHT = float(WEIGHTS[0])
 W0, W1, W2 = (float(w) for w in WEIGHTS[:3])
+LIFT = 1.0 / W0
 
+# Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants, their fluxes.
+PRESENT, RATES, FLUX = 0, 1, 4
+BLOCKS = 5
+LEFT, RIGHT = range(2)  # rows of the faces, shape (2, 2 n): flux at the left and at the right end of each element
 
-# Places of the fields in the one array, shape (7, 5, n + 1), that is the state of the cable.
-# The nodal ones (layout.py) leave the fifth row unused; slope, flux and scratch have five points per element.
-DISPLACEMENT, VELOCITY, ACCELERATION, FRESH, SLOPE, FLUX, SCRATCH = range(7)
-FIELDS = 7
+# Places in the ends, shape (6,): the ROV's displacement, velocity and slope; the vessel's slope; the ROV's
+# velocity is a state of its own, with its rates at the last three instants.
+TIP_DISPLACEMENT, TIP_VELOCITY, TIP_SLOPE, VESSEL_SLOPE = range(4)
+TIP_RATES = 4
+ENDS = 7
 
 
 class Cable(NamedTuple):
@@ -59,210 +61,212 @@ class Cable(NamedTuple):
     payload_mass: float
     payload_damping: float
     above: np.ndarray
-    """A = 1 - sigma at the five points of each element, shape (5, n + 1): distance from the ROV over l."""
+    """A = 1 - sigma at the nodes, shape (5, n): distance from the ROV over l."""
+    above_faces: np.ndarray
+    """A at the interfaces, vessel and ROV included, shape (n + 1,)."""
+    moving: np.ndarray
+    """1 at the velocities of a block, 0 at its slopes, shape (5, 2 n): what damping acts on."""
     profiles: np.ndarray
-    """Profiles of the loads along the cable, shape (loads, 4, n + 1)."""
+    """Profiles of the loads along the cable, shape (loads, 5, n)."""
 
 
 def make_cable(scenario: Scenario, profiles: np.ndarray) -> Cable:
     """Constants of a scenario's cable; ``profiles`` is (loads, 4 n + 1), ordered from vessel to ROV."""
-    field = to_field(1.0 - positions(scenario.grid.elements))
+    elements = scenario.grid.elements
+    above = 1.0 - positions(elements)
     return Cable(
         line_density=scenario.cable.line_density,
         hanging_density=scenario.cable.hanging_density,
         damping=scenario.cable.damping,
         payload_mass=scenario.payload.mass,
         payload_damping=scenario.payload.damping,
-        above=np.vstack([field, np.append(field[0, 1:], 0.0)]),
-        profiles=to_field(profiles),
+        above=np.ascontiguousarray(to_elements(above)),
+        above_faces=np.ascontiguousarray(above[::4]),
+        moving=np.tile(np.repeat([0.0, 1.0], elements), (5, 1)),
+        profiles=np.ascontiguousarray(to_elements(profiles)),
     )
 
 
-def make_fields(displacement: np.ndarray) -> np.ndarray:
-    """The cable at rest (Dy/Dt = 0) in a shape given at its nodes, shape (4 n + 1,), as a state (7, 5, n + 1)."""
-    nodal = to_field(displacement)
-    fields = np.zeros((FIELDS, 5, nodal.shape[1]))
-    fields[DISPLACEMENT, :4] = nodal
-    return fields
+def make_blocks(slopes: np.ndarray) -> np.ndarray:
+    """The cable at rest (Dy/Dt = 0) with the slopes Y_sigma, m, shape (5, n), as a state (5, 5, 2 n)."""
+    elements = slopes.shape[1]
+    blocks = np.zeros((BLOCKS, 5, 2 * elements))
+    blocks[PRESENT, :, :elements] = slopes
+    return blocks
 
 
 @kernel
-def differentiate(field: np.ndarray, out: np.ndarray) -> None:
-    """out[j, e]: derivative of ``field`` on the reference element at point j of element e."""
-    f = field
-    for e in range(f.shape[1] - 1):
-        ends, inner, middle = 0.5 * (f[0, e] + f[0, e + 1]), 0.5 * (f[1, e] + f[3, e]), f[2, e]
-        end_step, inner_step = 0.5 * (f[0, e] - f[0, e + 1]), 0.5 * (f[1, e] - f[3, e])
+def meet(
+    cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, length: float, speed: float, net_gravity: float
+) -> None:
+    """Flux at the interfaces inside the cable, from the two waves that run into each, and the power it takes, W.
+
+    ``W* = (W- + W+)/2 + c (p+ - p-)/2`` and ``p* = (p- + p+)/2 + (W+ - W-)/(2 c)``, - on the vessel's side. With
+    the jumps [W], [p] and Z = rho c the loss is ``Z/2 ([W]^2 + c^2 [p]^2) - v A Z [W] [p]``: never negative for
+    |v| < c, and of the order of the error squared where the grid resolves the wave.
+    """
+    n = x.shape[1] // 2
+    scale, above = 1.0 / length, cable.above_faces
+    foot = cable.payload_mass * net_gravity / cable.line_density
+    rise = cable.hanging_density * length * net_gravity / cable.line_density
+    behind, ahead, left, right = x[4], x[0], faces[LEFT], faces[RIGHT]
+    for f in range(1, n):
+        transport = speed * above[f]
+        square = foot + rise * above[f]
+        wave_speed = sqrt(square)
+        before, after, w_before, w_after = behind[f - 1] * scale, ahead[f] * scale, behind[n + f - 1], ahead[n + f]
+        step, w_step = after - before, w_after - w_before
+        slope = 0.5 * (before + after + w_step / wave_speed)
+        velocity = 0.5 * (w_before + w_after + step * wave_speed)
+        impedance = cable.line_density * wave_speed
+        losses[f] = impedance * (transport * step * w_step - 0.5 * (w_step * w_step + square * step * step))
+        flow, pull = velocity - transport * slope, scale * (square * slope - transport * velocity)
+        left[f] = flow
+        right[f - 1] = flow
+        left[n + f] = pull
+        right[n + f - 1] = pull
+
+
+@kernel
+def look_at_ends(
+    cable: Cable, x: np.ndarray, ends: np.ndarray, length: float, speed: float, net_gravity: float, vessel: float
+) -> None:
+    """Slopes y_x at ROV and vessel, each from the wave that runs into it; ``vessel`` is e', m/s."""
+    n = x.shape[1] // 2
+    foot = sqrt(tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
+    head = sqrt(tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
+    ends[TIP_SLOPE] = x[4, n - 1] / length + (ends[TIP_VELOCITY] - x[4, 2 * n - 1]) / foot
+    ends[VESSEL_SLOPE] = (x[0, n] - vessel + head * x[0, 0] / length) / (head + speed)
+
+
+@kernel
+def meet_ends(
+    cable: Cable,
+    x: np.ndarray,
+    faces: np.ndarray,
+    losses: np.ndarray,
+    ends: np.ndarray,
+    length: float,
+    speed: float,
+    net_gravity: float,
+    vessel: float,
+) -> None:
+    """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
+    n = faces.shape[1] // 2
+    foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
+    head = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
+    top = vessel + speed * ends[VESSEL_SLOPE]
+    faces[LEFT, 0] = vessel
+    faces[LEFT, n] = (head * ends[VESSEL_SLOPE] - speed * top) / length
+    faces[RIGHT, n - 1] = ends[TIP_VELOCITY]
+    faces[RIGHT, 2 * n - 1] = foot * ends[TIP_SLOPE] / length
+    top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - ends[TIP_VELOCITY]
+    losses[0] = -cable.line_density * (sqrt(head) + speed) * top_step * top_step
+    losses[n] = -cable.line_density * sqrt(foot) * tip_step * tip_step
+
+
+@kernel
+def flux(cable: Cable, x: np.ndarray, out: np.ndarray, length: float, speed: float, net_gravity: float) -> None:
+    """The brackets of the two conservation laws at every node."""
+    n = x.shape[1] // 2
+    scale = 1.0 / length
+    foot = cable.payload_mass * net_gravity / cable.line_density
+    rise = cable.hanging_density * length * net_gravity / cable.line_density
+    for j in range(5):
+        above, slope, velocity, flow, pull = cable.above[j], x[j, :n], x[j, n:], out[j, :n], out[j, n:]
+        for e in range(n):
+            p, w, transport = scale * slope[e], velocity[e], speed * above[e]
+            flow[e] = w - transport * p
+            pull[e] = scale * ((foot + rise * above[e]) * p - transport * w)
+
+
+@kernel
+def differentiate(f: np.ndarray, faces: np.ndarray, out: np.ndarray) -> None:
+    """out: d/dsigma of a flux with values ``f`` at the nodes and ``faces`` where elements meet, all columns alike."""
+    columns = f.shape[1]
+    f0, f1, f2, f3, f4 = f[0], f[1], f[2], f[3], f[4]
+    out0, out1, out2, out3, out4 = out[0], out[1], out[2], out[3], out[4]
+    left, right = faces[LEFT], faces[RIGHT]
+    per_sigma = float(columns)  # 2 n: the reference element is 2 wide
+    for k in range(columns):
+        ends, inner, middle = 0.5 * (f0[k] + f4[k]), 0.5 * (f1[k] + f3[k]), f2[k]
+        end_step, inner_step = 0.5 * (f0[k] - f4[k]), 0.5 * (f1[k] - f3[k])
         odd0 = D0_EVEN[0] * ends + D0_EVEN[1] * inner + D0_EVEN[2] * middle
         odd1 = D1_EVEN[0] * ends + D1_EVEN[1] * inner + D1_EVEN[2] * middle
         even0 = D0_ODD[0] * end_step + D0_ODD[1] * inner_step
         even1 = D1_ODD[0] * end_step + D1_ODD[1] * inner_step
-        out[0, e] = even0 + odd0
-        out[1, e] = even1 + odd1
-        out[2, e] = D2_ODD[0] * end_step + D2_ODD[1] * inner_step
-        out[3, e] = even1 - odd1
-        out[4, e] = even0 - odd0
+        out0[k] = per_sigma * (even0 + odd0 - LIFT * (left[k] - f0[k]))
+        out1[k] = per_sigma * (even1 + odd1)
+        out2[k] = per_sigma * (D2_ODD[0] * end_step + D2_ODD[1] * inner_step)
+        out3[k] = per_sigma * (even1 - odd1)
+        out4[k] = per_sigma * (even0 - odd0 + LIFT * (right[k] - f4[k]))
 
 
 @kernel
-def apply_adjoint(f: np.ndarray) -> None:
-    """The adjoint derivative of values at the five points of each element, in their place."""
-    for e in range(f.shape[1] - 1):
-        ends, inner, middle = 0.5 * (f[0, e] + f[4, e]), 0.5 * (f[1, e] + f[3, e]), f[2, e]
-        end_step, inner_step = 0.5 * (f[0, e] - f[4, e]), 0.5 * (f[1, e] - f[3, e])
-        odd0 = G0_EVEN[0] * ends + G0_EVEN[1] * inner + G0_EVEN[2] * middle
-        odd1 = G1_EVEN[0] * ends + G1_EVEN[1] * inner + G1_EVEN[2] * middle
-        even0 = G0_ODD[0] * end_step + G0_ODD[1] * inner_step
-        even1 = G1_ODD[0] * end_step + G1_ODD[1] * inner_step
-        f[0, e] = even0 + odd0
-        f[1, e] = even1 + odd1
-        f[2, e] = G2_ODD[0] * end_step + G2_ODD[1] * inner_step
-        f[3, e] = even1 - odd1
-        f[4, e] = even0 - odd0
-
-
-@kernel
-def momentum_flux(cable: Cable, fields: np.ndarray, length: float, speed: float, net_gravity: float) -> None:
-    """flux = rho v A W - T Y_sigma / l at every point: what moves momentum along sigma."""
-    n = fields.shape[2] - 1
-    w, g, flux, above = fields[VELOCITY], fields[SLOPE], fields[FLUX], cable.above
-    transport = cable.line_density * speed
-    strain = 2.0 * n / length
-    foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) * strain
-    rise = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) * strain - foot
-    for j in range(4):
-        for e in range(n):
-            flux[j, e] = transport * above[j, e] * w[j, e] - (foot + rise * above[j, e]) * g[j, e]
-    for e in range(n):
-        flux[4, e] = transport * above[4, e] * w[0, e + 1] - (foot + rise * above[4, e]) * g[4, e]
-
-
-@kernel
-def force_to_acceleration(cable: Cable, fields: np.ndarray, target: int, length: float, speed: float) -> None:
-    """Force of every point (in the flux) over the mass of its node, less transport of mass and damping."""
-    n = fields.shape[2] - 1
-    w, force, out = fields[VELOCITY], fields[FLUX], fields[target]
-    inside = 2.0 * n / (cable.line_density * length)
-    loss = speed / length + cable.damping / cable.line_density
-    for j in range(1, 4):
-        for e in range(n):
-            out[j, e] = inside * force[j, e] - loss * w[j, e]
-    # Two elements meet at these nodes, each with half of the mass.
-    for e in range(1, n):
-        out[0, e] = 0.5 * inside * (force[0, e] + force[4, e - 1]) - loss * w[0, e]
-    tip_share = END_WEIGHT / (2.0 * n) * cable.line_density * length
-    push = END_WEIGHT * force[4, n - 1] - (tip_share * loss + cable.payload_damping) * w[0, n]
-    out[0, n] = push / (tip_share + cable.payload_mass)
-    out[0, 0] = 0.0
-
-
-@kernel
-def add_loads(cable: Cable, out: np.ndarray, length: float, loads: np.ndarray) -> None:
-    """Add the loads along the cable, N/m per profile, to an acceleration, shape (5, n + 1)."""
-    n = out.shape[1] - 1
-    tip_share = END_WEIGHT / (2.0 * n) * cable.line_density * length
+def add_loads(cable: Cable, rate: np.ndarray, loads: np.ndarray) -> None:
+    """Add the loads along the cable, N/m per profile, to the rates of a block."""
+    n = rate.shape[1] // 2
     for k in range(loads.size):
         amount = loads[k] / cable.line_density
-        for row in range(4):
+        for j in range(5):
             for e in range(n):
-                out[row, e] += amount * cable.profiles[k, row, e]
-        out[0, n] += amount * cable.profiles[k, 0, n] * tip_share / (tip_share + cable.payload_mass)
-    out[0, 0] = 0.0
+                rate[j, n + e] += amount * cable.profiles[k, j, e]
+
+
+@kernel
+def march(
+    x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, moving: np.ndarray, loss: float,
+    weights: np.ndarray,
+) -> None:  # fmt: skip
+    """Take ``loss`` times the velocity off the new rate; then x += weights . (new, old, older)."""
+    w0, w1, w2 = weights[0], weights[1], weights[2]
+    for j in range(5):
+        for k in range(x.shape[1]):
+            rate = new[j, k] - loss * moving[j, k] * x[j, k]
+            new[j, k] = rate
+            x[j, k] += w0 * rate + w1 * old[j, k] + w2 * older[j, k]
 
 
 @glue
 def evaluate(
     cable: Cable,
-    fields: np.ndarray,
-    target: int,
+    blocks: np.ndarray,
+    faces: np.ndarray,
+    losses: np.ndarray,
+    ends: np.ndarray,
+    slot: int,
     length: float,
     speed: float,
     net_gravity: float,
-    vessel_velocity: float,
+    vessel: float,
     loads: np.ndarray,
 ) -> None:
-    """Slope, vessel-end velocity and acceleration (field ``target``) at the present displacement and velocity.
+    """Rates at the present instant, but for the loss of the velocities, into block and place ``slot`` (0 to 2).
 
-    The acceleration is W_t from everything but the thrust and the force on the ROV.
+    The rate of the ROV is that of everything but the thrust and the force on it.
     """
-    n = fields.shape[2] - 1
-    differentiate(fields[DISPLACEMENT], fields[SLOPE])
-    fields[VELOCITY, 0, 0] = vessel_velocity + speed / length * (2.0 * n * fields[SLOPE, 0, 0])
-    momentum_flux(cable, fields, length, speed, net_gravity)
-    apply_adjoint(fields[FLUX])
-    force_to_acceleration(cable, fields, target, length, speed)
+    x, rate = blocks[PRESENT], blocks[RATES + slot]
+    meet(cable, x, faces, losses, length, speed, net_gravity)
+    meet_ends(cable, x, faces, losses, ends, length, speed, net_gravity, vessel)
+    flux(cable, x, blocks[FLUX], length, speed, net_gravity)
+    differentiate(blocks[FLUX], faces, rate)
     if loads.size > 0:
-        add_loads(cable, fields[target], length, loads)
+        add_loads(cable, rate, loads)
+    pull = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) * ends[TIP_SLOPE]
+    ends[TIP_RATES + slot] = -(pull + cable.payload_damping * ends[TIP_VELOCITY]) / cable.payload_mass
 
 
 @kernel
-def kick_payload(cable: Cable, fields: np.ndarray, dt: float, length: float, force: float) -> None:
-    """W += dt * force / mass at the node of the ROV, for the forces from outside the cable."""
-    n = fields.shape[2] - 1
-    tip_mass = END_WEIGHT / (2.0 * n) * cable.line_density * length + cable.payload_mass
-    fields[VELOCITY, 0, n] += dt * force / tip_mass
-
-
-@glue
-def leap(cable: Cable, fields: np.ndarray, dt: float, length: float, speed: float) -> None:
-    """Half a kick, the drift of a whole step, and half a kick more with the old acceleration.
-
-    ``W += dt/2 W_t;  Y += dt (W - (v A/l) Y_sigma);  W += dt/2 W_t``. The last is a prediction, mended by
-    :func:`correct`. The vessel's node is left to its boundary condition.
-    """
-    if speed == 0.0:
-        leap_in_place(fields, dt)
-    else:
-        leap_with_transport(cable, fields, dt, dt * speed / length * 2.0 * (fields.shape[2] - 1))
-
-
-@kernel
-def leap_in_place(fields: np.ndarray, dt: float) -> None:
-    """The winch stands still: no transport."""
-    y, w, acceleration = fields[DISPLACEMENT], fields[VELOCITY], fields[ACCELERATION]
-    half = 0.5 * dt
-    for row in range(4):
-        for e in range(y.shape[1]):
-            kick = half * acceleration[row, e]
-            middle = w[row, e] + kick
-            y[row, e] += dt * middle
-            w[row, e] = middle + kick
-
-
-@kernel
-def leap_with_transport(cable: Cable, fields: np.ndarray, dt: float, shift: float) -> None:
-    """Transport by the slope in the middle of the step; a shared node takes the mean slope of its two sides."""
-    n = fields.shape[2] - 1
-    y, w, acceleration, above = fields[DISPLACEMENT], fields[VELOCITY], fields[ACCELERATION], cable.above
-    g, middle, r = fields[SLOPE], fields[FLUX], fields[SCRATCH]
-    half, half_shift = 0.5 * dt, 0.5 * shift
-    for j in range(1, 4):
-        for e in range(n):
-            w[j, e] += half * acceleration[j, e]
-            middle[j, e] = y[j, e] + half * w[j, e] - half_shift * above[j, e] * g[j, e]
-    for e in range(1, n):
-        w[0, e] += half * acceleration[0, e]
-        middle[0, e] = y[0, e] + half * w[0, e] - half_shift * above[0, e] * 0.5 * (g[0, e] + g[4, e - 1])
-    w[0, n] += half * acceleration[0, n]
-    middle[0, 0] = y[0, 0] + half * w[0, 0] - half_shift * g[0, 0]
-    middle[0, n] = y[0, n] + half * w[0, n]
-    differentiate(middle, r)
-    for j in range(1, 4):
-        for e in range(n):
-            y[j, e] += dt * w[j, e] - shift * above[j, e] * r[j, e]
-            w[j, e] += half * acceleration[j, e]
-    for e in range(1, n):
-        y[0, e] += dt * w[0, e] - shift * above[0, e] * 0.5 * (r[0, e] + r[4, e - 1])
-        w[0, e] += half * acceleration[0, e]
-    y[0, n] += dt * w[0, n]
-    w[0, n] += half * acceleration[0, n]
-
-
-@kernel
-def correct(fields: np.ndarray, dt: float) -> None:
-    """Replace the predicted second half kick by the true one, and keep the fresh acceleration."""
-    w, old, new = fields[VELOCITY], fields[ACCELERATION], fields[FRESH]
-    for row in range(4):
-        for e in range(w.shape[1]):
-            w[row, e] += dt * (new[row, e] - old[row, e])
-            old[row, e] = new[row, e]
+def add_up_displacement(x: np.ndarray, starts: np.ndarray, vessel: float) -> None:
+    """Displacement at every interface into ``starts``, shape (n + 1,), m, from the vessel's, ``vessel``."""
+    n = x.shape[1] // 2
+    half = 0.5 / n
+    x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
+    gains = starts[1:]
+    for e in range(n):
+        gains[e] = half * (W0 * (x0[e] + x4[e]) + W1 * (x1[e] + x3[e]) + W2 * x2[e])
+    total = vessel
+    starts[0] = total
+    for e in range(n):
+        total += gains[e]
+        gains[e] = total

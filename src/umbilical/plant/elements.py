@@ -2,9 +2,10 @@
 
 Nodes, weights W and derivative D satisfy the summation-by-parts identity ``W D + D^T W = B`` with
 ``B = diag(-1, 0, 0, 0, 1)``: integration by parts holds exactly on the grid, and with it the power
-balance of the cable. A cable of ``n`` such elements has ``4 n + 1`` nodes.
+balance of the cable inside each element. Neighbouring elements meet in an upwind flux.
 
-Source: Canuto, Hussaini, Quarteroni, Zang, *Spectral Methods: Fundamentals in Single Domains*, 2.3.
+Source: Canuto, Hussaini, Quarteroni, Zang, *Spectral Methods: Fundamentals in Single Domains*, 2.3; Hesthaven,
+Warburton, *Nodal Discontinuous Galerkin Methods*, 4.8 for the spectrum of the upwind element.
 """
 
 from __future__ import annotations
@@ -28,22 +29,27 @@ def _derivative() -> np.ndarray:
     return matrix
 
 
+def _integral() -> np.ndarray:
+    """I[i, j]: integral from -1 to node i of the polynomial that is 1 at node j and 0 at the others."""
+    powers = np.arange(DEGREE + 1)
+    primitive = (NODES[:, None] ** (powers + 1) - (-1.0) ** (powers + 1)) / (powers + 1)
+    return primitive @ np.linalg.inv(NODES[:, None] ** powers)
+
+
 DERIVATIVE = _derivative()
-STIFFNESS = DERIVATIVE.T @ (WEIGHTS[:, None] * DERIVATIVE)
-
-_root = np.sqrt(WEIGHTS)
-LARGEST_EIGENVALUE = float(np.linalg.eigvalsh(STIFFNESS / np.outer(_root, _root))[-1])
-"""Largest eigenvalue of ``STIFFNESS y = k W y``; no assembled cable of uniform tension exceeds it."""
+INTEGRAL = _integral()
 
 
-def highest_frequency(wave_speed: float, element_length: float) -> float:
-    """Bound on the angular frequency of any mode of the grid, rad/s.
+def upwind_spectrum(phases: int = 720) -> np.ndarray:
+    """Eigenvalues of a wave of unit speed that runs through unit elements in one direction, shape (5 phases,).
 
-    Args:
-        wave_speed: largest sqrt(T/rho) on the cable, m/s.
-        element_length: shortest element, m.
+    One Fourier phase from element to element at a time; both characteristics of the cable have this spectrum,
+    scaled by the wave speed over the element's length.
     """
-    return wave_speed * sqrt(LARGEST_EIGENVALUE) * 2.0 / element_length
+    rates = np.repeat(-2.0 * DERIVATIVE[None].astype(complex), phases, axis=0)
+    rates[:, 0, 0] -= 2.0 / WEIGHTS[0]
+    rates[:, 0, -1] += 2.0 / WEIGHTS[0] * np.exp(-2j * np.pi * np.arange(phases) / phases)
+    return np.linalg.eigvals(rates).ravel()
 
 
 def interpolation_row(position: float) -> np.ndarray:

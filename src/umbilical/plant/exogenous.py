@@ -107,7 +107,7 @@ class Outside:
         self._sample_winch(steps, inputs.world)
         if environment.vessel_motion:
             motion = inputs.world[VESSEL : VESSEL_VELOCITY + 1]
-            _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps)
+            _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps, middle=False)
         _fill_signal(inputs.world[FORCE], environment.payload_force, steps, middle=False)
         for row, load in zip(inputs.loads, environment.cable_load, strict=True):
             _fill_signal(row, load.signal, steps, middle=False)
@@ -122,7 +122,7 @@ class Outside:
             net_gravity = gravity - acceleration
             return length, speed, acceleration, net_gravity, jerk / net_gravity
 
-        _fill(world[: JERK_RATIO + 1], motion, steps)
+        _fill(world[: JERK_RATIO + 1], motion, steps, middle=False)
 
     def _sample_motors(self, steps: Steps, out: Array) -> None:
         for k, motor in enumerate(self._scenario.motors):
@@ -155,7 +155,7 @@ def _fill_signal(row: Array, signal: signals.Signal, steps: Steps, *, middle: bo
 def _fill(
     rows: Array, function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = True
 ) -> None:
-    """Functions of time into ``rows``, shape (functions, 3, steps); Verlet needs no force in the ``middle``."""
+    """Functions of time into ``rows``, shape (functions, 3, steps); only motors look at the ``middle``."""
     if middle:
         for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
             row[MIDDLE] = values

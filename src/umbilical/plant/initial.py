@@ -5,44 +5,51 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant import winch
-from umbilical.plant.layout import positions
-from umbilical.plant.signals import spline, vessel
+from umbilical.plant.elements import DEGREE, interpolation_row
+from umbilical.plant.signals import spline
 from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
+_POINTS, _POINT_WEIGHTS = np.polynomial.legendre.leggauss(12)
 
-def initial_displacement(scenario: Scenario) -> np.ndarray:
-    """Displacement of every node at t = 0, m, shape (4 n + 1,); the vessel end takes e(0)."""
-    sigma = positions(scenario.grid.elements)
+
+def initial_slopes(scenario: Scenario) -> np.ndarray:
+    """Slopes Y_sigma of the shape at t = 0 at the nodes, m, shape (5, n).
+
+    In each element the polynomial nearest to the shape's slope in the mean square, so that the displacement
+    at the interfaces is exact.
+    """
+    elements = scenario.grid.elements
+    sigma = (np.arange(elements) + (_POINTS[:, None] + 1.0) / 2.0) / elements
+    return _projection() @ slope_of_shape(scenario, sigma)
+
+
+def _projection() -> np.ndarray:
+    """From a function at the points of a fine quadrature to its projection on the element's nodes, shape (5, 12)."""
+    at_points = np.array([interpolation_row(p) for p in _POINTS])
+    exact_points, exact_weights = np.polynomial.legendre.leggauss(DEGREE + 1)
+    basis = np.array([interpolation_row(p) for p in exact_points])
+    mass = basis.T @ (exact_weights[:, None] * basis)
+    return np.linalg.solve(mass, at_points.T * _POINT_WEIGHTS)
+
+
+def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
+    """d/dsigma of the initial shape at any positions x/l, m, same shape as ``sigma``."""
     motion = winch.evaluate(scenario.winch, 0.0)
     length = float(motion.length)
     above = length * (1.0 - sigma)
     shape = scenario.initial
     match shape:
         case SineShape():
-            nodes = shape.amplitude * np.sin(shape.half_waves * np.pi * sigma)
+            return shape.amplitude * shape.half_waves * np.pi * np.cos(shape.half_waves * np.pi * sigma)
         case GaussianShape():
-            nodes = shape.amplitude * np.exp(-(((above - shape.distance) / shape.width) ** 2))
+            off = (above - shape.distance) / shape.width
+            return 2.0 * length / shape.width * off * shape.amplitude * np.exp(-(off**2))
         case StaticShape():
-            net_gravity = scenario.environment.gravity - float(motion.acceleration)
-            nodes = static_deflection(scenario, shape.force, above, length, net_gravity)
+            # Under a steady force P on the ROV, y_x = P/T everywhere.
+            hanging = scenario.payload.mass + scenario.cable.hanging_density * above
+            return length * shape.force / (hanging * (scenario.environment.gravity - float(motion.acceleration)))
         case TableShape():
-            nodes = np.asarray(spline(shape.positions, shape.displacements)(sigma))
+            return np.asarray(spline(shape.positions, shape.displacements).derivative()(sigma))
         case _:
-            nodes = np.zeros_like(sigma)
-    nodes[0] = float(vessel(scenario.environment, 0.0)[0])
-    return nodes
-
-
-def static_deflection(
-    scenario: Scenario, force: float, above: np.ndarray, length: float, net_gravity: float
-) -> np.ndarray:
-    """Deflection under a steady force P on the ROV: ``P/(rho g) ln((m + rho l)/(m + rho (l - x)))``, m.
-
-    ``above`` is the distance from the ROV, m. With constant tension it is ``P x / T``.
-    """
-    mass, hanging = scenario.payload.mass, scenario.cable.hanging_density
-    if hanging == 0.0:
-        return force * (length - above) / (mass * net_gravity)
-    # log1p keeps its digits when the cable is light against the ROV.
-    return force / (hanging * net_gravity) * np.log1p(hanging * (length - above) / (mass + hanging * above))
+            return np.zeros_like(sigma)

@@ -1,40 +1,57 @@
 """How the nodes of the cable lie in memory, and back. No other file knows.
 
-A nodal field is an array of shape ``(4, elements + 1)``: row k holds node k of every element, so that a
-kernel walks along a row and the compiler does four elements at once. Node 4 of element e is node 0 of
-element e + 1; the ROV is ``field[0, elements]``. The unused ends of rows 1 to 3 stay zero.
+A block is an array of shape ``(5, 2 n)`` for n elements: row j holds node j of every element, the slopes
+Y_sigma of all elements first, then their velocities Dy/Dt. A kernel walks along a row, so the compiler does
+several elements at once. Neighbours keep a value each at the interface they share.
+
+What a person reads, and what is stored, lies along the cable: 4 n + 1 nodes from vessel to ROV.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from umbilical.plant.elements import DEGREE, NODES, WEIGHTS, interpolation_row
+from umbilical.plant.elements import DEGREE, INTEGRAL, NODES, WEIGHTS, interpolation_row
 
 
 def node_count(elements: int) -> int:
-    """Number of nodes, both ends included."""
+    """Number of nodes along the cable, both ends included."""
     return DEGREE * elements + 1
 
 
-def empty_field(elements: int) -> np.ndarray:
-    """A nodal field of zeros, shape (4, elements + 1)."""
-    return np.zeros((DEGREE, elements + 1))
+def empty_block(elements: int) -> np.ndarray:
+    """A block of zeros, shape (5, 2 n)."""
+    return np.zeros((DEGREE + 1, 2 * elements))
 
 
-def to_field(nodal: np.ndarray) -> np.ndarray:
-    """Arrange values ordered from vessel to ROV, shape (..., 4 n + 1), as a field (..., 4, n + 1)."""
+def to_elements(nodal: np.ndarray) -> np.ndarray:
+    """Values along the cable, shape (..., 4 n + 1), node by element: (..., 5, n)."""
     elements = (nodal.shape[-1] - 1) // DEGREE
-    padded = np.zeros((*nodal.shape[:-1], DEGREE * (elements + 1)))
-    padded[..., : nodal.shape[-1]] = nodal
-    return np.ascontiguousarray(np.swapaxes(padded.reshape(*nodal.shape[:-1], elements + 1, DEGREE), -1, -2))
+    return nodal[..., np.arange(DEGREE + 1)[:, None] + DEGREE * np.arange(elements)]
 
 
-def to_nodal(field: np.ndarray) -> np.ndarray:
-    """Values ordered from vessel to ROV, shape (..., 4 n + 1), of a field (..., 4, n + 1)."""
-    count = node_count(field.shape[-1] - 1)
-    flat = np.swapaxes(field, -1, -2).reshape(*field.shape[:-2], DEGREE * field.shape[-1])
-    return np.ascontiguousarray(flat[..., :count])
+def to_nodal(inside: np.ndarray) -> np.ndarray:
+    """Values (..., 5, n) along the cable, (..., 4 n + 1); an interface takes the mean of its two sides."""
+    elements = inside.shape[-1]
+    nodal = np.empty((*inside.shape[:-2], node_count(elements)))
+    nodal[..., :-1].reshape(*inside.shape[:-2], elements, DEGREE)[:] = np.swapaxes(inside[..., :DEGREE, :], -1, -2)
+    nodal[..., DEGREE:-1:DEGREE] = 0.5 * (inside[..., 0, 1:] + inside[..., DEGREE, :-1])
+    nodal[..., -1] = inside[..., DEGREE, -1]
+    return nodal
+
+
+def integrate(slopes: np.ndarray) -> np.ndarray:
+    """Integral of Y_sigma (..., 5, n) from the vessel to every node, m, shape (..., 4 n + 1).
+
+    The integral of an element's polynomial is exact, so the displacement is continuous.
+    """
+    elements = slopes.shape[-1]
+    nodal = np.zeros((*slopes.shape[:-2], node_count(elements)))
+    within = np.einsum("jk,...ke->...ej", INTEGRAL / (2.0 * elements), slopes)
+    starts = np.cumsum(within[..., -1], axis=-1)
+    within[..., 1:, :] += starts[..., :-1, None]
+    nodal[..., 1:] = within[..., 1:].reshape(*slopes.shape[:-2], DEGREE * elements)
+    return nodal
 
 
 def positions(elements: int) -> np.ndarray:
@@ -53,6 +70,7 @@ def quadrature(elements: int) -> np.ndarray:
 
 
 def probe(sigma: float, elements: int) -> tuple[int, np.ndarray]:
-    """Element that holds ``sigma`` and the weights, shape (5,), of its nodes in the value there."""
+    """Element that holds ``sigma``, and the weights, shape (5,), of its slopes in the displacement gained in it."""
     element = min(int(sigma * elements), elements - 1)
-    return element, interpolation_row(2.0 * (sigma * elements - element) - 1.0)
+    within = interpolation_row(2.0 * (sigma * elements - element) - 1.0)
+    return element, within @ INTEGRAL / (2.0 * elements)

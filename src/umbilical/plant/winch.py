@@ -77,7 +77,8 @@ def _(winch: ConstantSpeed, t: Array, side: Side) -> WinchMotion:
 
 @_motion.register
 def _(winch: Quintic, t: Array, side: Side) -> WinchMotion:
-    way, time = winch.end_length - winch.start_length, winch.duration
+    # A numpy number: absurdly short, its powers give infinities that the admission refuses, not an exception.
+    way, time = winch.end_length - winch.start_length, np.float64(winch.duration)
     q = np.clip((t - winch.start) / time, 0.0, 1.0)
     square = q * q
     # The jerk is the one derivative that does not vanish at both ends, so it needs to know when the winch runs.

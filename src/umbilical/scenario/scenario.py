@@ -17,12 +17,14 @@ from umbilical.scenario.winch import Winch
 
 
 class Grid(Record):
-    """The discretisation. Its order is fixed (4 in space per element, 2 in time); its fineness is not."""
+    """The discretisation. Its order is fixed (5 in the element size, 3 in the step); its fineness is not."""
 
     elements: int = Field(
         default=64, ge=4, le=4096, description="elements along the cable, four intervals of nodes each"
     )
-    step: float = quantity("plant_step", 1e-3, gt=0.0, le=1.0, reason="the largest step of the plant", cure="1e-3 s")
+    step: float = quantity(
+        "plant_step", 1e-3, gt=0.0, le=1.0, reason="the plant divides a control period", cure="1e-3 s"
+    )
 
 
 class Output(Record):
