@@ -186,6 +186,6 @@ def grid_near_the_payload(
         band = 2.0 * pi * speed * grid.elements / longest
         yield Notice(
             "control.law.slope_gain",
-            f"at {control.law.slope_gain:g} m/s the loop answers to waves above {band:.0f} rad/s, which this grid damps "
+            f"at {control.law.slope_gain:g} m/s the loop feels waves above {band:.0f} rad/s, which this grid damps "
             "and a cable would send back: judge stability by `umbilical margins`",
         )
