@@ -51,8 +51,8 @@ from umbilical.plant.power import (
     TENSION,
     THRUST,
     add_power,
-    power_along,
-    power_at_ends,
+    book_along,
+    book_at_ends,
     strain_of_elements,
 )
 from umbilical.plant.signals import vessel
@@ -64,6 +64,8 @@ NOW, SINCE_START = range(2)
 """Rows of PlantState.power_ends, power_along and losses: power now, and its integral."""
 AGE, NEWEST = range(2)
 """Places in PlantState.history: rates known before the present one, and the place of the last of them."""
+STEP, JERK = range(2)
+"""Places in PlantState.last."""
 AT_START, MEAN, BEFORE = range(3)
 """Rows of PlantState.acting: thrust and force on the ROV at the start of a step, in its mean, one step before."""
 
@@ -91,7 +93,7 @@ class PlantState(NamedTuple):
         ends: ROV and vessel's end, shape (7,).
         starts: displacement at the interfaces, m, shape (n + 1,).
         history: how many rates are known, and where the newest is, shape (2,).
-        step: length of the last step, s, shape (1,).
+        last: length of the last step, s, and a'/(g - a) at its end, 1/s, shape (2,).
         acting: thrust and force on the ROV, N, shape (3, 2).
         weights: of the rates in the present step, s, shape (3,).
         motors: speeds and currents, shape (2, motors).
@@ -109,7 +111,7 @@ class PlantState(NamedTuple):
     ends: np.ndarray
     starts: np.ndarray
     history: np.ndarray
-    step: np.ndarray
+    last: np.ndarray
     acting: np.ndarray
     weights: np.ndarray
     motors: np.ndarray
@@ -137,7 +139,7 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         ends=np.zeros(ENDS),
         starts=np.zeros(elements + 1),
         history=np.zeros(2, dtype=np.int64),
-        step=np.zeros(1),
+        last=np.zeros(2),
         acting=np.zeros((3, 2)),
         weights=np.zeros(3),
         motors=make_motor_state(n),
@@ -166,7 +168,7 @@ def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
     state.history[AGE] = 0
     if not plant.ideal:
         state.now[DELIVERED] = present_thrust(plant, state)
-    settle(plant, state)
+    settle(plant, state, 0.0)
 
 
 @glue
@@ -193,30 +195,27 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
     after = state.now[NET_GRAVITY]
     if after != before and before > 0.0:
-        strain = state.power_along[NOW, TENSION]
-        strain_of_elements(plant.cable, state.blocks[PRESENT], strain, state.now[LENGTH], after, 0.5)
-        add_power(state.power_along[SINCE_START, TENSION], strain, 1.0 - before / after)
+        power, work = state.power_along[NOW, TENSION], state.power_along[SINCE_START, TENSION]
+        strain_of_elements(plant.cable, state.blocks[PRESENT], power, work, 0.0, state.now[LENGTH], after, 0.5)
+        add_power(work, power, 1.0 - before / after)
 
 
 @glue
-def settle(plant: Plant, state: PlantState) -> None:
-    """What follows from the present state: displacement, slopes at both ends, terms of the power balance."""
+def settle(plant: Plant, state: PlantState, half: float) -> None:
+    """What follows from the present state: displacement, slopes at both ends, powers, and their works.
+
+    ``half`` is half of the step that ends here; 0 after a jump.
+    """
     now, cable, x, ends = state.now, plant.cable, state.blocks[PRESENT], state.ends
+    length, speed, gravity, vessel = now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY]
     add_up_displacement(x, state.starts, now[VESSEL])
     ends[TIP_DISPLACEMENT] = state.starts[state.starts.size - 1]
-    look_at_ends(cable, x, ends, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
-    powers = state.power_ends[NOW]
-    power_at_ends(cable, ends, powers, now[LENGTH], now[SPEED], now[NET_GRAVITY], now[VESSEL_VELOCITY])
-    along = state.power_along[NOW]
-    power_along(cable, x, along, now[LENGTH], now[NET_GRAVITY], now[JERK_RATIO], state.loads)
-
-
-@glue
-def add_work(state: PlantState, time: float) -> None:
-    """Let the present power work for ``time``: half a step after its start, half a step before its end."""
-    add_power(state.power_ends[SINCE_START], state.power_ends[NOW], time)
-    for term in range(ALONG_TERMS):
-        add_power(state.power_along[SINCE_START, term], state.power_along[NOW, term], time)
+    look_at_ends(cable, x, ends, length, speed, gravity, vessel)
+    power, work = state.power_ends[NOW], state.power_ends[SINCE_START]
+    book_at_ends(cable, ends, power, work, half, length, speed, gravity, vessel)
+    along, done = state.power_along[NOW], state.power_along[SINCE_START]
+    book_along(cable, x, along, done, half, length, gravity, now[JERK_RATIO], state.last[JERK], state.loads)
+    state.last[JERK] = now[JERK_RATIO]
 
 
 @glue
@@ -250,7 +249,7 @@ def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
 @entry_kernel
 def find_rates(plant: Plant, state: PlantState) -> None:
     """Rates at the present state into the first of their places; the state stays as it is."""
-    settle(plant, state)
+    settle(plant, state, 0.0)
     state.weights[0], state.weights[1], state.weights[2] = 0.0, 0.0, 0.0
     march_cable(plant, state, 0)
 
@@ -293,12 +292,11 @@ def correct_first_step(plant: Plant, state: PlantState, dt: float) -> None:
 def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
     """Step i, from :func:`enter_step` on: the multistep method for cable and ROV, Runge-Kutta for the motors."""
     dt, now, history = inputs.dt[i], state.now, state.history
-    if abs(dt - state.step[0]) > 1e-9 * dt:  # the weights are those of equal steps
+    if abs(dt - state.last[STEP]) > 1e-9 * dt:  # the weights are those of equal steps
         history[AGE] = 0
-        state.step[0] = dt
+        state.last[STEP] = dt
     start, mean, before = state.acting[AT_START], state.acting[MEAN], state.ends[TIP_DISPLACEMENT]
     start[0], start[1] = now[DELIVERED], now[FORCE]
-    add_work(state, 0.5 * dt)
     advance_cable(plant, state, dt)
     look_outside(state, inputs, i, END)
     if not plant.ideal:
@@ -309,8 +307,7 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
         correct_first_step(plant, state, dt)
     history[NEWEST] = (history[NEWEST] + 1) % 3
     history[AGE] = min(history[AGE] + 1, KNOWN)
-    settle(plant, state)
-    add_work(state, 0.5 * dt)
+    settle(plant, state, 0.5 * dt)
     moved, work = state.ends[TIP_DISPLACEMENT] - before, state.power_ends[SINCE_START]
     work[THRUST] += mean[0] * moved
     work[PAYLOAD_FORCE] += mean[1] * moved

@@ -26,10 +26,11 @@ END_TERMS, ALONG_TERMS = 4, 3
 
 @kernel
 def strain_of_elements(
-    cable: Cable, x: np.ndarray, out: np.ndarray, length: float, net_gravity: float, factor: float
-) -> None:
-    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) into ``out``, shape (n,)."""
-    n = out.size
+    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net_gravity: float,
+    factor: float,
+) -> None:  # fmt: skip
+    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) as its power, see :func:`book`."""
+    n = power.size
     foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density)
     rise = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) - foot
     scale = factor / (2.0 * n * length)
@@ -38,67 +39,93 @@ def strain_of_elements(
     for e in range(n):
         ends = (foot + rise * a0[e]) * x0[e] * x0[e] + (foot + rise * a4[e]) * x4[e] * x4[e]
         inner = (foot + rise * a1[e]) * x1[e] * x1[e] + (foot + rise * a3[e]) * x3[e] * x3[e]
-        out[e] = scale * (W0 * ends + W1 * inner + W2 * ((foot + rise * a2[e]) * x2[e] * x2[e]))
+        new = scale * (W0 * ends + W1 * inner + W2 * ((foot + rise * a2[e]) * x2[e] * x2[e]))
+        work[e] += half * (power[e] + new)
+        power[e] = new
 
 
 @kernel
-def squares_of_elements(x: np.ndarray, out: np.ndarray, length: float, factor: float) -> None:
-    """``factor`` times int W^2 dx of every element, m3/s2, into ``out``, shape (n,)."""
-    n = out.size
+def squares_of_elements(
+    x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, factor: float
+) -> None:
+    """``factor`` times int W^2 dx of every element, m3/s2, as its new power, see :func:`book`."""
+    n = power.size
     scale = factor * length / (2.0 * n)
     w0, w1, w2, w3, w4 = x[0, n:], x[1, n:], x[2, n:], x[3, n:], x[4, n:]
     for e in range(n):
         ends, inner = w0[e] * w0[e] + w4[e] * w4[e], w1[e] * w1[e] + w3[e] * w3[e]
-        out[e] = scale * (W0 * ends + W1 * inner + W2 * (w2[e] * w2[e]))
+        new = scale * (W0 * ends + W1 * inner + W2 * (w2[e] * w2[e]))
+        work[e] += half * (power[e] + new)
+        power[e] = new
 
 
 @kernel
-def load_on_elements(cable: Cable, x: np.ndarray, out: np.ndarray, length: float, loads: np.ndarray) -> None:
-    """int f W dx of every element, W, into ``out``, shape (n,)."""
-    n = out.size
+def load_on_elements(
+    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, loads: np.ndarray
+) -> None:
+    """int f W dx of every element, W, as its new power, see :func:`book`."""
+    n = power.size
     scale = length / (2.0 * n)
     for e in range(n):
-        out[e] = 0.0
+        work[e] += half * power[e]
+        power[e] = 0.0
     for k in range(loads.size):
         p = cable.profiles[k]
         for e in range(n):
             ends = p[0, e] * x[0, n + e] + p[4, e] * x[4, n + e]
             inner = p[1, e] * x[1, n + e] + p[3, e] * x[3, n + e]
-            out[e] += scale * loads[k] * (W0 * ends + W1 * inner + W2 * (p[2, e] * x[2, n + e]))
+            new = scale * loads[k] * (W0 * ends + W1 * inner + W2 * (p[2, e] * x[2, n + e]))
+            work[e] += half * new
+            power[e] += new
 
 
 @kernel
-def power_along(
+def book_along(
     cable: Cable,
     x: np.ndarray,
-    out: np.ndarray,
+    power: np.ndarray,
+    work: np.ndarray,
+    half: float,
     length: float,
     net_gravity: float,
     jerk_ratio: float,
+    last_jerk_ratio: float,
     loads: np.ndarray,
 ) -> None:
-    """Terms along the cable at the present state, element by element, into ``out``, shape (3, n), W."""
+    """Terms along the cable, element by element, shape (3, n) each, see :func:`book`.
+
+    The tension works only while the winch acceleration changes, or did at the start of the step.
+    """
     if cable.damping != 0.0:
-        squares_of_elements(x, out[CABLE_DAMPING], length, -cable.damping)
+        squares_of_elements(x, power[CABLE_DAMPING], work[CABLE_DAMPING], half, length, -cable.damping)
     if loads.size > 0:
-        load_on_elements(cable, x, out[CABLE_LOAD], length, loads)
-    if jerk_ratio != 0.0:
-        strain_of_elements(cable, x, out[TENSION], length, net_gravity, -0.5 * jerk_ratio)
-    else:
-        out[TENSION] = 0.0
+        load_on_elements(cable, x, power[CABLE_LOAD], work[CABLE_LOAD], half, length, loads)
+    if jerk_ratio != 0.0 or last_jerk_ratio != 0.0:
+        strain_of_elements(cable, x, power[TENSION], work[TENSION], half, length, net_gravity, -0.5 * jerk_ratio)
 
 
 @kernel
-def power_at_ends(
-    cable: Cable, ends: np.ndarray, out: np.ndarray, length: float, speed: float, net_gravity: float, vessel: float
-) -> None:
-    """Damping of the ROV and the vessel's end at the present state into ``out``, shape (4,), W; ``vessel`` is e'."""
+def book_at_ends(
+    cable: Cable, ends: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, speed: float,
+    net_gravity: float, vessel: float,
+) -> None:  # fmt: skip
+    """Damping of the ROV and the vessel's end, shape (4,) each, see :func:`book`; ``vessel`` is e', m/s."""
     top_tension = tension(length, net_gravity, cable.payload_mass, cable.hanging_density)
     top_slope = ends[VESSEL_SLOPE]
     top_velocity = vessel + speed * top_slope
-    out[PAYLOAD_DAMPING] = -cable.payload_damping * ends[TIP_VELOCITY] * ends[TIP_VELOCITY]
+    book(power, work, PAYLOAD_DAMPING, -cable.payload_damping * ends[TIP_VELOCITY] * ends[TIP_VELOCITY], half)
     pull = -top_tension * top_slope * (vessel + 0.5 * speed * top_slope)
-    out[VESSEL] = pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity
+    book(power, work, VESSEL, pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity, half)
+
+
+@kernel
+def book(power: np.ndarray, work: np.ndarray, place: int, new: float, half: float) -> None:
+    """A power at the end of a step: with that at its start it works for ``half`` the step; then it is the present one.
+
+    After a jump ``half`` is 0: the new power takes the place of the old.
+    """
+    work[place] += half * (power[place] + new)
+    power[place] = new
 
 
 @kernel
