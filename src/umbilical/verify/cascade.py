@@ -69,5 +69,11 @@ def compared() -> Iterator[Check]:
 
 
 CASES = (
-    Case("whole cascade, 7 s of the paper's scenario", "continuous law, Legendre cable, DOP853 at 1e-8", "eqs. (6)-(64) in one integration", compared, quick=False),
+    Case(
+        "whole cascade, 7 s of the paper's scenario",
+        "continuous law, Legendre cable, DOP853 at 1e-8",
+        "eqs. (6)-(64) in one integration",
+        compared,
+        quick=False,
+    ),
 )

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from umbilical.analysis.convergence import Curve, orders
+from umbilical.errors import UmbilicalError
 
 ORDER_SLACK = 0.1
 """How far below the stated order the finest pair of grids may be."""
@@ -78,9 +79,9 @@ class Case:
             return Result(self, (), f"needs {self.needs}", 0.0)
         try:
             checks = tuple(self.find())
-        except CaseError as error:
+        except (CaseError, UmbilicalError, ArithmeticError) as error:
             nan = float("nan")
-            checks = (Check("the whole case", nan, nan, nan, 0.0, str(error)),)
+            checks = (Check("the whole case", nan, nan, nan, 0.0, f"could not be carried through: {error}"),)
         return Result(self, checks, "", perf_counter() - begun)
 
 
@@ -143,4 +144,4 @@ def worst_ratio(checks: Sequence[Check]) -> float:
 
 def _shown(value: complex) -> float:
     """A pole is shown by its imaginary part, its frequency."""
-    return float(value.imag) if np.iscomplexobj(value) else float(value)
+    return float(np.imag(value) if np.iscomplexobj(value) else np.real(value))

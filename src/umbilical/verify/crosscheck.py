@@ -45,7 +45,9 @@ def refined() -> Iterator[Check]:
     limit = 2.0 * peaks[-1] - peaks[-2]
     yield close("limit for short periods, m", limit, PROPOSED, 2e-4, "the last digit printed")
     off = tuple(abs(p - limit) for p in peaks[:-1])
-    yield order_reached(Curve("the peak under the boundary law", "the period, s", PERIODS[:-1], off, PERIOD_ORDER), "stated")
+    yield order_reached(
+        Curve("the peak under the boundary law", "the period, s", PERIODS[:-1], off, PERIOD_ORDER), "stated"
+    )
 
 
 CODES = "two codes, continuous law"

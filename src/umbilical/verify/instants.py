@@ -79,14 +79,21 @@ def faults() -> Iterator[Check]:
     yield each_close("velocity 5 ms later, m/s, the worst of five", found, velocity_after(80.0, since), TOLERANCE, WHY)
     first = {name: int(np.argmax(run["thrust"].values != 0.0)) for name, run in runs.items()}
     late = sum(first[name] != (51 if name == "just after" else 50) for name in FAULTS)
-    yield small("samples of the thrust that come late or early", float(late), 0.0, "which sample is first is no matter of digits")
+    yield small(
+        "samples of the thrust that come late or early",
+        float(late),
+        0.0,
+        "which sample is first is no matter of digits",
+    )
 
 
 def recovery() -> Iterator[Check]:
     """80 N from 20 ms to 40.5 ms, in the middle of a step."""
     velocity = stuck(0.02, end=0.0405)["tip_velocity"].values[45]
     exact = velocity_after(80.0, np.array(0.045 - 0.02)) - velocity_after(80.0, np.array(0.045 - 0.0405))
-    yield each_close("velocity at 45 ms, m/s", [velocity], [exact], 2e-3, "as before; its end one step late misses by 5e-2")
+    yield each_close(
+        "velocity at 45 ms, m/s", [velocity], [exact], 2e-3, "as before; its end one step late misses by 5e-2"
+    )
 
 
 DASHPOT = "P/Z (1 - exp(-Z t/m))"

@@ -157,7 +157,12 @@ def refined() -> Iterator[Check]:
 TWO_RUNS = "another run of ours"
 CASES = (
     *(
-        Case(f"superposition, {name}", "sum of four responses", "the open loop is linear", lambda ways=ways: superposed(ways))
+        Case(
+            f"superposition, {name}",
+            "sum of four responses",
+            "the open loop is linear",
+            lambda ways=ways: superposed(ways),
+        )
         for name, ways in WAYS.items()
     ),
     Case("mirror image", TWO_RUNS, "(6)-(64) are odd in y", mirror_image),
@@ -166,4 +171,4 @@ CASES = (
     Case("all motors dead", "a run without control", "(16) with rho_i = u_k = 0", all_dead),
     Case("rho -> 0 in T", "a run at constant tension", "T = (m + rho (l - x)) (g - a)", weightless),
     Case("refinement", "a run on a grid twice as fine", "convergence", refined),
-)  # fmt: skip
+)

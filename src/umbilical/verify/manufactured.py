@@ -74,7 +74,12 @@ def _driven(swing: float, elements: int) -> Scenario:
         environment__cable_load=loads,
         environment__payload_force=history(exact.force(problem, t)),
         environment__vessel_motion=[constant(0.25), sine(-0.25, 1.3, np.pi / 2.0)],
-        winch={"law": "cosine", "start_length": problem.start_length, "amplitude": swing, "frequency": problem.frequency},
+        winch={
+            "law": "cosine",
+            "start_length": problem.start_length,
+            "amplitude": swing,
+            "frequency": problem.frequency,
+        },
         initial={"shape": "sine", "amplitude": 4.0 / 3.0, "half_waves": exact.WAVENUMBER / np.pi},
     )
 
@@ -82,7 +87,9 @@ def _driven(swing: float, elements: int) -> Scenario:
 def solve(swing: float, elements: int, step: float) -> Answer:
     """The engine's answer at the end."""
     run = ours.completed(_driven(swing, elements).replace({"grid.step": step, "control.period": step}))
-    return Answer(run["sigma"].values, run["displacement"].values[-1], run["velocity"].values[-1], run["tip_displacement"].values)
+    return Answer(
+        run["sigma"].values, run["displacement"].values[-1], run["velocity"].values[-1], run["tip_displacement"].values
+    )
 
 
 def errors(swing: float, elements: int) -> tuple[float, float, float]:
@@ -97,8 +104,8 @@ def errors(swing: float, elements: int) -> tuple[float, float, float]:
     off_y = y - exact.displacement(sigma, UNTIL)
     off_w = w - exact.velocity(Problem(swing), sigma, UNTIL)
     off_tip = tip - exact.displacement(np.asarray(1.0), np.linspace(0.0, UNTIL, tip.size))
-    along = (float(np.sqrt(np.trapezoid(off**2, sigma))) for off in (off_y, off_w))
-    return (*along, float(np.sqrt(np.mean(off_tip**2))))
+    y_rms, w_rms = (float(np.sqrt(np.trapezoid(off**2, sigma))) for off in (off_y, off_w))
+    return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))
 
 
 def in_space(swing: float) -> Iterator[Check]:
@@ -123,7 +130,9 @@ def in_time(swing: float) -> Iterator[Check]:
     solutions = [solve(swing, 8, step) for step in STEPS]
     for place, name in ((1, "y"), (2, "Dy/Dt")):
         changes = [b[place] - a[place] for a, b in pairwise(solutions)]
-        along = Curve(f"{name}, change", "the step, s", STEPS[:-1], tuple(float(np.abs(c).max()) for c in changes), TIME_ORDER)
+        along = Curve(
+            f"{name}, change", "the step, s", STEPS[:-1], tuple(float(np.abs(c).max()) for c in changes), TIME_ORDER
+        )
         yield order_reached(along, "stated")
     at_tip = tuple(float(np.abs(b.tip - a.tip).max()) for a, b in pairwise(solutions))
     yield order_reached(Curve("y(l,t), change", "the step, s", STEPS[:-1], at_tip, TIME_ORDER), "stated")
@@ -136,9 +145,12 @@ def in_time(swing: float) -> Iterator[Check]:
 
 CASES = tuple(
     Case(
-        f"manufactured solution, l {way}, {what}", "y = p sin(k sigma) + q cos(k sigma)", "(6)-(8), loads derived by hand, checked by sympy",
-        lambda find=find, swing=swing: find(swing), quick=False,
+        f"manufactured solution, l {way}, {what}",
+        "y = p sin(k sigma) + q cos(k sigma)",
+        "(6)-(8), loads derived by hand, checked by sympy",
+        lambda find=find, swing=swing: find(swing),
+        quick=False,
     )
     for way, swing in SIZES.items()
     for what, find in (("in space", in_space), ("in time", in_time))
-)  # fmt: skip
+)

@@ -73,7 +73,9 @@ def side_by_side() -> Iterator[Check]:
     peak = np.abs(exact()).max()
     off = [float(np.abs(other(n) - exact()).max() / peak) for n in SEGMENTS]
     for n, distance in zip(SEGMENTS, off, strict=True):
-        yield small(f"MoorDyn's y(l,t), {n} segments, distance over peak", distance, 60.0 / n**2, "second order: 60/n^2")
+        yield small(
+            f"MoorDyn's y(l,t), {n} segments, distance over peak", distance, 60.0 / n**2, "second order: 60/n^2"
+        )
     mine = float(np.abs(engine() - exact()).max() / peak)
     yield small("our distance over that of MoorDyn at 100 segments", mine / off[-1], 0.01, "far smaller: a hundredth")
     sizes = tuple(STRING.length / n for n in SEGMENTS[1:])
@@ -83,5 +85,12 @@ def side_by_side() -> Iterator[Check]:
 MODES = "e + sum of 60 Bessel modes"
 CASES = (
     Case("vessel in motion, l = 500 m", MODES, "forced hanging string", carried),
-    Case("vessel in motion, beside MoorDyn", MODES, "moordyn, in vacuum, EA 1e8 N, RK4, cfl 0.1", side_by_side, quick=False, needs="moordyn"),
-)  # fmt: skip
+    Case(
+        "vessel in motion, beside MoorDyn",
+        MODES,
+        "moordyn, in vacuum, EA 1e8 N, RK4, cfl 0.1",
+        side_by_side,
+        quick=False,
+        needs="moordyn",
+    ),
+)

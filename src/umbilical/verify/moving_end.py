@@ -41,9 +41,7 @@ class Setting(NamedTuple):
 
 def steady(speed: float, **changes: Any) -> Setting:
     """250 m at a constant winch speed, m/s."""
-    return Setting(
-        lambda t: 250.0 + speed * t, {"law": "speed", "start_length": 250.0, "speed": speed}, **changes
-    )
+    return Setting(lambda t: 250.0 + speed * t, {"law": "speed", "start_length": 250.0, "speed": speed}, **changes)
 
 
 def to_and_fro() -> Setting:
@@ -79,8 +77,15 @@ def run(setting: Setting, step: float = 1e-3) -> Run:
 def reference(setting: Setting, **resolution: int) -> MovingEnd:
     """The solution along characteristics, some seconds longer than the run, for what is still under way."""
     return MovingEnd(
-        setting.tension, 2.0, setting.mass, setting.damping, setting.length, setting.start, 1.2 * setting.until, **resolution
-    )  # fmt: skip
+        setting.tension,
+        2.0,
+        setting.mass,
+        setting.damping,
+        setting.length,
+        setting.start,
+        1.2 * setting.until,
+        **resolution,
+    )
 
 
 def compared(setting: Setting, exact: Callable[[Setting], Any] = reference, step: float = 1e-3) -> Iterator[Check]:
@@ -103,16 +108,29 @@ def held(speed: float) -> Iterator[Check]:
 
 DELAY = "m V' + (Z + k) V = 2 Z h' along characteristics, to 1e-10"
 SOURCE = "d'Alembert; delay equation of the tip"
-WAYS = {"fixed": steady(0.0), "paying out at 5 m/s": steady(5.0), "hauling in at 4 m/s": steady(-4.0), "to and fro": to_and_fro()}
+WAYS = {
+    "fixed": steady(0.0),
+    "paying out at 5 m/s": steady(5.0),
+    "hauling in at 4 m/s": steady(-4.0),
+    "to and fro": to_and_fro(),
+}
 PHASE = "R = 2 ln(1 + b c t/l0)/ln((1 + b)/(1 - b))"
 
 CASES = (
     *(
-        Case(f"moving end, {name}", DELAY, SOURCE, lambda setting=setting: compared(setting), quick=name != "to and fro")
+        Case(
+            f"moving end, {name}", DELAY, SOURCE, lambda setting=setting: compared(setting), quick=name != "to and fro"
+        )
         for name, setting in WAYS.items()
     ),
     *(
-        Case(f"moving end, ROV held, {speed:+g} m/s", PHASE, "Moore 1970; Balazs 1961", lambda speed=speed: held(speed), quick=False)
+        Case(
+            f"moving end, ROV held, {speed:+g} m/s",
+            PHASE,
+            "Moore 1970; Balazs 1961",
+            lambda speed=speed: held(speed),
+            quick=False,
+        )
         for speed in (5.0, -4.0)
     ),
-)  # fmt: skip
+)

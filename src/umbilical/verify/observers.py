@@ -74,7 +74,9 @@ def high_gain_responses() -> Iterator[Check]:
     t = np.arange(1, 60) * PERIOD
     for damping in (2.0, 1.0):
         found = derivative(np.append(0.0, np.ones(t.size)), damping)
-        yield history_close(f"unit step, lam = {damping:g}, 1/s", found, exact.high_gain_step(EPS, damping, t), ROUND_OFF, WHY)
+        yield history_close(
+            f"unit step, lam = {damping:g}, 1/s", found, exact.high_gain_step(EPS, damping, t), ROUND_OFF, WHY
+        )
     found = np.array([measured_transfer(derivative, w, 2000) for w in FREQUENCIES])
     wanted = np.array([exact.high_gain_transfer(EPS, 2.0, w, PERIOD) for w in FREQUENCIES])
     why = "the tail of the sum over images"

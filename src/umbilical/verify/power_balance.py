@@ -63,10 +63,16 @@ def rates(way: tuple[float, float]) -> Iterator[Check]:
 
 
 CASES = tuple(
-    Case(f"power balance, {name}{more}", "dE/dt term by term, with e(t)", "exact for (6)-(8); docs/theory.md", find, quick)
+    Case(
+        f"power balance, {name}{more}",
+        "dE/dt term by term, with e(t)",
+        "exact for (6)-(8); docs/theory.md",
+        find,
+        quick,
+    )
     for name, way in WAYS.items()
     for more, find, quick in (
         ("", lambda way=way: size(way), True),
         (", refined", lambda way=way: rates(way), False),
     )
-)  # fmt: skip
+)

@@ -18,7 +18,9 @@ SOURCE = "statics of the hanging string"
 
 def stays() -> Iterator[Check]:
     """The cable starts in its static shape and nothing happens."""
-    scenario = open_loop(initial={"shape": "static", "force": FORCE}, duration=40.0, environment__payload_force=[constant(FORCE)])
+    scenario = open_loop(
+        initial={"shape": "static", "force": FORCE}, duration=40.0, environment__payload_force=[constant(FORCE)]
+    )
     y = ours.completed(scenario)["displacement"]
     exact = static_shape(STRING, FORCE, y["sigma"].values)
     yield history_close("y at the start, m", y.values[0], exact, TOLERANCE, "interpolation on the grid")

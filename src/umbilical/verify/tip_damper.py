@@ -31,7 +31,7 @@ def proportional() -> Iterator[Check]:
     found = ours.poles(damped(0.04, 0.04 * STRING.mass / STRING.line_density), 6)
     exact = -rate + 1j * np.sqrt(frequencies(STRING, 6) ** 2 - rate**2)
     yield each_close("six poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
-    yield each_close("their decay, 1/s, the worst", found.real, exact.real, REAL, WHY_REAL)
+    yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
 
 
 def at_the_payload(damping: float) -> Iterator[Check]:
@@ -39,7 +39,7 @@ def at_the_payload(damping: float) -> Iterator[Check]:
     found = ours.poles(damped(0.0, damping), 5)
     exact = np.array([damped_pole(STRING, damping, near=pole) for pole in found])
     yield each_close("five poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
-    yield each_close("their decay, 1/s, the worst", found.real, exact.real, REAL, WHY_REAL)
+    yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
 
 
 def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
@@ -57,7 +57,7 @@ def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
     t, above = run["time"].values[late, None], length * (1.0 - run["sigma"].values)
     down, up = np.exp(1j * frequency * (t + above / speed)), np.exp(1j * frequency * (t - above / speed))
     # y = Re(down D + up U), with D arriving at the ROV and U leaving it.
-    columns = np.stack([q.ravel() for wave in (down, up) for q in (wave.real, -wave.imag)], axis=1)
+    columns = np.stack([q.ravel() for wave in (down, up) for q in (np.real(wave), -np.imag(wave))], axis=1)
     d_re, d_im, u_re, u_im = np.linalg.lstsq(columns, run["displacement"].values[late].ravel(), rcond=None)[0]
     found = complex(u_re, u_im) / complex(d_re, d_im)
     load = damping + 1j * frequency * mass
@@ -67,19 +67,25 @@ def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
 
 
 CASES = (
-    Case("damping in proportion to the mass", "-c/(2 rho) +- i sqrt(w^2 - (c/2 rho)^2)", "Rayleigh damping", proportional),
+    Case(
+        "damping in proportion to the mass", "-c/(2 rho) +- i sqrt(w^2 - (c/2 rho)^2)", "Rayleigh damping", proportional
+    ),
     *(
         Case(
-            f"damper of {damping:g} N s/m at the ROV", "(m s^2 + c_tip s) Y + T Y_x = 0, Bessel functions",
-            "boundary condition (8)", lambda damping=damping: at_the_payload(damping),
+            f"damper of {damping:g} N s/m at the ROV",
+            "(m s^2 + c_tip s) Y + T Y_x = 0, Bessel functions",
+            "boundary condition (8)",
+            lambda damping=damping: at_the_payload(damping),
         )
         for damping in (40.0, 400.0)
     ),
     *(
         Case(
-            f"reflection at the ROV, damper {damping:g} N s/m", "(Z - k - i w m)/(Z + k + i w m)",
-            "impedance of a string, Z = sqrt(rho T)", lambda damping=damping: reflection(damping),
+            f"reflection at the ROV, damper {damping:g} N s/m",
+            "(Z - k - i w m)/(Z + k + i w m)",
+            "impedance of a string, Z = sqrt(rho T)",
+            lambda damping=damping: reflection(damping),
         )
         for damping in (40.0, 100.0)
     ),
-)  # fmt: skip
+)

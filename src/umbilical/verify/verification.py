@@ -82,7 +82,10 @@ class Verification:
     def document(self) -> dict[str, Any]:
         """As plain data."""
         rows = [
-            {"family": family} | row for family, results in self.families.items() for result in results for row in rows_of(result)
+            {"family": family} | row
+            for family, results in self.families.items()
+            for result in results
+            for row in rows_of(result)
         ]
         return {"holds": self.holds, "headline": self.headline, "checks": rows}
 

@@ -93,9 +93,7 @@ def solve(force: Callable[[float], float], times: Array, degree: int = 40) -> Hi
         q, momentum, tail = state[:degree], state[degree : 2 * degree], state[2 * degree :]
         speed, current, observers, filters, ups = tail[0:2], tail[2:4], tail[4:9], tail[9:15].reshape(3, 2), tail[15:17]
         length, _, a = paper.winch(t)
-        thrust, observer_rates = paper.outer_law(
-            q[0], q.sum() / length, paper.MASS * (paper.GRAVITY - a), observers
-        )
+        thrust, observer_rates = paper.outer_law(q[0], q.sum() / length, paper.MASS * (paper.GRAVITY - a), observers)
         voltage, filter_rates, ups_rate = paper.motor_loops(thrust, speed, current, filters, ups)
         bell = paper.motor_disturbances(t)[0][1] * np.ones(2)
         speed_rate, current_rate = paper.motor_rates(speed, current, voltage, (bell, 0.2 * bell))

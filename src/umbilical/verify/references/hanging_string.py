@@ -50,7 +50,8 @@ def _scanned(foot: float, top: float, count: int) -> list[float]:
     grid = np.concatenate([np.geomspace(1e-4, 0.02, 200), np.arange(0.03, count + 2.0, 0.02)]) * np.pi / (top - foot)
     values = equation(grid)
     brackets = np.flatnonzero(values[:-1] * values[1:] < 0.0)[:count]
-    return [float(brentq(equation, grid[k], grid[k + 1], xtol=1e-15)) for k in brackets]
+    found: list[Any] = [brentq(equation, grid[k], grid[k + 1], xtol=1e-15) for k in brackets]
+    return [float(root) for root in found]
 
 
 def steady_tension_frequencies(string: HangingString, count: int) -> np.ndarray:
@@ -100,7 +101,7 @@ class _Mode(NamedTuple):
 
 
 def _modes(string: HangingString, count: int) -> list[_Mode]:
-    points, weights = np.polynomial.legendre.leggauss(600)
+    points, weights = np.polynomial.legendre.leggauss(240)
     above = 0.5 * string.length * (points + 1.0)
     weights = 0.5 * string.length * string.line_density * weights
     found = []
@@ -141,5 +142,5 @@ def carried_tip(
         # q' + i w q turns at w and takes up -e'' int rho phi/M on the way.
         taken = -(pushed * np.exp(-1j * m.frequency * inside)) @ weights * m.share / m.inertia
         turning = np.concatenate([[0.0], np.cumsum(taken)]) * np.exp(1j * m.frequency * t)
-        tip += m.tip * turning.imag / m.frequency
+        tip += m.tip * np.imag(turning) / m.frequency
     return tip
