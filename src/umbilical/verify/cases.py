@@ -79,9 +79,10 @@ class Case:
             return Result(self, (), f"needs {self.needs}", 0.0)
         try:
             checks = tuple(self.find())
-        except (CaseError, UmbilicalError, ArithmeticError) as error:
+        except Exception as error:  # whatever it is: this case fails, and the others still have their say
             nan = float("nan")
-            checks = (Check("the whole case", nan, nan, nan, 0.0, f"could not be carried through: {error}"),)
+            what = error if isinstance(error, CaseError | UmbilicalError) else repr(error)
+            checks = (Check("the whole case", nan, nan, nan, 0.0, f"could not be carried through: {what}"),)
         return Result(self, checks, "", perf_counter() - begun)
 
 

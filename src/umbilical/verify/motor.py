@@ -20,7 +20,7 @@ MOTOR = {
 }  # fmt: skip
 VOLTAGE = 75.015
 STEP = 1e-6
-WHY = "asked of the default step; a tenth more inertia misses by 1e-2"
+WHY = "asked for; a tenth more inertia misses by 1e-2"
 
 
 def drive(signal: list[dict[str, Any]], duration: float, step: float = 1e-3, **changes: float) -> Run:

@@ -18,7 +18,7 @@ from umbilical.verify.ours import STEADY_TENSION, open_loop
 from umbilical.verify.references.characteristics import HeldEnd, MovingEnd
 
 TOLERANCE = 1e-3
-WHY = "asked of the default grid; v of the wrong sign misses by 1"
+WHY = "asked for; v of the wrong sign misses by 1"
 
 
 class Setting(NamedTuple):

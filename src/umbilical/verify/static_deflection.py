@@ -11,7 +11,7 @@ from umbilical.verify.references.hanging_string import HangingString, released_t
 
 FORCE, STRING = 100.0, HangingString()
 TOLERANCE = 1e-4
-WHY = "four digits, more than any load is known to; half the ROV's inertia moves the release by 1"
+WHY = "four digits; half the ROV's inertia moves the release by 1"
 LOGARITHM = "P/(rho g) ln((m + rho l)/(m + rho (l - x)))"
 SOURCE = "statics of the hanging string"
 
