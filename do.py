@@ -96,9 +96,11 @@ def check() -> Iterable[bool]:
 
 
 def thorough() -> Iterable[bool]:
-    """Slow tests, kernels as plain Python, kernels with their array bounds checked."""
+    """Slow tests; kernels as plain Python, with what of them is covered; kernels with their array bounds checked."""
     yield call(PYTHON, "-m", "pytest", "-m", "slow")
-    yield call(PYTHON, "-m", "pytest", "-m", "nojit", NUMBA_DISABLE_JIT="1")
+    # Only plain Python shows which lines and branches of a kernel a test has been through.
+    yield call(PYTHON, "-m", "coverage", "run", "-m", "pytest", "-m", "nojit", NUMBA_DISABLE_JIT="1")
+    yield call(PYTHON, "-m", "coverage", "report")
     yield call(PYTHON, "-m", "pytest", "-m", "bounds", NUMBA_BOUNDSCHECK="1")
 
 

@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.control.test_observers import MOTOR
 from umbilical.control.motor.backstepping import Backstepping, backstepping_drive, smooth_sign
 from umbilical.control.motor.command_filter import advance_filter, make_command_filter
 from umbilical.relations.formulas import motor_constants, soft_signed_root
+from umbilical.scenario.hardware import Motor
+from umbilical.verify import motor
 
 pytestmark = pytest.mark.nojit
 
+MOTOR = Motor.model_validate(motor.MOTOR)
 PERIOD, POLE = 1e-3, 200.0
 GAINS = Backstepping(50.0, 500.0, 1.5, 0.1, 2.0, 4.0, 120.0)
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.support.scenarios import run, small
+from umbilical.verify.invariance import DEAD
 
-DEAD = [{"kind": "dead", "motor": motor, "start": 0.0} for motor in (1, 2)]
 CABLE = ("displacement", "velocity", "tip_slope", "energy", "work_payload_force", "work_tension", "thrust")
 
 

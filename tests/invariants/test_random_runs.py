@@ -5,40 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import umbilical
-from tests.support.scenarios import open_loop, run, sine
+from tests.support.random_scenarios import between, few, waves, winches
+from tests.support.scenarios import open_loop, run
 from umbilical import Status
 from umbilical.errors import ScenarioError
-
-few = settings(
-    max_examples=12, deadline=None, derandomize=True, database=None, suppress_health_check=[HealthCheck.too_slow]
-)
-
-
-def between(low: float, high: float) -> st.SearchStrategy[float]:
-    return st.floats(low, high, allow_nan=False, allow_subnormal=False)
-
-
-waves = st.builds(sine, between(-1.0, 1.0), between(0.2, 3.0), between(-3.0, 3.0))
-quintic = st.builds(
-    lambda start, way: {"law": "quintic", "start_length": start, "end_length": start + way, "duration": 5.0},
-    between(90.0, 150.0), between(-12.0, 12.0),
-)  # fmt: skip
-steady = st.builds(
-    lambda start, v: {"law": "speed", "start_length": start, "speed": v}, between(90.0, 150.0), between(-4.0, 4.0)
-)
-to_and_fro = st.builds(
-    lambda start, amplitude, w: {"law": "cosine", "start_length": start, "amplitude": amplitude, "frequency": w},
-    between(90.0, 150.0), between(-3.0, 3.0), between(0.2, 1.0),
-)  # fmt: skip
 
 
 @few
 @given(
-    winch=st.one_of(quintic, steady, to_and_fro),
+    winch=winches,
     force=waves,
     load=waves,
     vessel=waves,

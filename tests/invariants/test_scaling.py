@@ -1,4 +1,4 @@
-"""Shifted in time, in other units, at no hanging weight, with a winch that does not move: the same physics."""
+"""Shifted in time under control, in other units, with a winch that does not move: the same physics."""
 
 from __future__ import annotations
 
@@ -7,54 +7,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.support.scenarios import constant, open_loop, run, sine
-from umbilical import Run
-
-
-def pulsed(preset_overrides: dict[str, Any], begin: float) -> np.ndarray:
-    pulse = [{"kind": "pulse", "value": 100.0, "start": begin, "end": begin + 0.5}]
-    result = run(
-        open_loop(
-            duration=6.0, grid__elements=8, output__interval=0.01, environment__payload_force=pulse, **preset_overrides
-        )
-    )
-    tip = result["tip_displacement"].values
-    assert not tip[result["time"].values <= begin].any()
-    return tip[result["time"].values >= begin - 1e-9]
-
+from tests.support.scenarios import open_loop, run
+from umbilical.verify.invariance import hung, pulsed
 
 LAW = {"control__law": {"kind": "boundary", "damping_gain": 1e4, "slope_gain": 0.01}}
 
 
 @pytest.mark.parametrize("control", [{}, LAW], ids=["open loop", "closed loop"])
 def test_a_later_load_gives_the_same_response_later(control: dict[str, Any]) -> None:
-    early, late = pulsed(control, 1.0), pulsed(control, 3.0)
+    early, late = pulsed(1.0, **control), pulsed(3.0, **control)
     assert np.abs(early[: late.size] - late).max() < 1e-11 * np.abs(early).max()
-
-
-def hung(length: float, time: float, force: float) -> Run:
-    """The same cable in units of ``length`` m, ``time`` s and ``force`` N; g = 10 m/s2 in each."""
-    mass = force * time**2 / length
-    return run(
-        open_loop(
-            environment__gravity=10.0 * length / time**2,
-            cable={"line_density": 2.0 * mass / length, "damping": 0.1 * mass / length / time},
-            payload={"mass": 100.0 * mass, "damping": 5.0 * mass / time},
-            winch={
-                "law": "quintic",
-                "start_length": 80.0 * length,
-                "end_length": 90.0 * length,
-                "duration": 4.0 * time,
-            },
-            initial={"shape": "sine", "amplitude": 0.5 * length},
-            environment__payload_force=[constant(50.0 * force), sine(20.0 * force, 2.0 / time)],
-            environment__cable_load=[{"profile": {"shape": "uniform"}, "signal": [sine(force / length, 1.0 / time)]}],
-            duration=4.0 * time,
-            control__period=1e-3 * time,
-            grid={"elements": 8, "step": 1e-3 * time},
-            output__interval=0.1 * time,
-        )
-    )
 
 
 @pytest.mark.parametrize(
@@ -65,21 +27,6 @@ def test_units_do_not_matter(length: float, time: float, force: float) -> None:
     for name, unit in (("displacement", length), ("velocity", length / time), ("energy", force * length)):
         scale = np.abs(one[name].values).max()
         assert np.abs(other[name].values / unit - one[name].values).max() < 1e-10 * scale, name
-
-
-def test_vanishing_hanging_weight_is_constant_tension() -> None:
-    """T = (m + rho_wet (l - x)) (g - a): the distance to the cable of constant tension falls with rho_wet."""
-
-    def tip(wet: float) -> np.ndarray:
-        start = {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5}
-        return run(open_loop(duration=20.0, cable__wet_line_density=wet, grid__elements=8, initial=start))[
-            "displacement"
-        ].values
-
-    limit = tip(0.0)
-    far, near = (np.abs(tip(wet) - limit).max() for wet in (1e-2, 1e-4))
-    assert near < 1e-3
-    assert far / near == pytest.approx(100.0, rel=0.05)
 
 
 @pytest.mark.nojit

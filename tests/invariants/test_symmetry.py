@@ -2,36 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
-from tests.support.scenarios import constant, run, sine, small
-from umbilical import Run
+from tests.support.scenarios import run, sine, small
+from umbilical.verify.invariance import mirrored
 
 EVEN = {
     "time", "length", "payout_speed", "payout_acceleration", "energy", "energy_residual", "effectiveness",
     "work_thrust", "work_payload_force", "work_payload_damping", "work_cable_damping", "work_cable_load", "work_vessel",
     "work_tension", "work_grid",
 }  # fmt: skip
-
-
-def mirrored(sign: float, preset: str) -> Run:
-    """Every sideways input times ``sign``: loads, start, vessel, the motors' disturbances, stuck values."""
-    sideways: dict[str, Any] = {
-        "environment.payload_force": [constant(100.0 * sign), sine(50.0 * sign, 0.7)],
-        "environment.cable_load": [{"profile": {"shape": "sine", "half_waves": 3}, "signal": [sine(2.0 * sign, 9.0)]}],
-        "environment.vessel_motion": [sine(0.3 * sign, 2.0)],
-        "environment.vessel_ramp": 0.05,
-        "initial": {"shape": "sine", "amplitude": 0.4 * sign, "half_waves": 1.5},
-    }
-    scenario = small(preset)
-    for motor in range(1, len(scenario.motors) + 1):
-        sideways[f"motors.{motor}.torque_disturbance"] = [sine(sign, 20.0)]
-        sideways[f"motors.{motor}.voltage_disturbance"] = [sine(0.2 * sign, 20.0)]
-        sideways["faults"] = [{"kind": "stuck", "motor": motor, "start": 0.05, "value": 100.0 * sign}]
-    return run(scenario.replace(sideways))
 
 
 @pytest.mark.nojit

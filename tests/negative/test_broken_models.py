@@ -1,106 +1,91 @@
-"""Deliberately wrong models fail the checks of the right one, by ten times the tolerance at least.
+"""Deliberately wrong models fail the cases of the right one, by ten times the tolerance at least.
 
-Each breaks one thing on its way into the kernels and measures what the reference test measures.
+Every case of the verification stands in the table, so none of them is a test that cannot fail.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from fnmatch import fnmatch
 
-import numpy as np
 import pytest
 
-import umbilical
-from tests.control.test_observers import TRANSFER, exact_transfer, high_gain, measured_transfer
-from tests.convergence.test_power_balance_order import residual
-from tests.engine.test_events import MOMENTUM, TIP_MASS, pulse, pushed, stuck
-from tests.reference import test_bessel_frequencies as bessel
-from tests.reference import test_delay_equation as moving_end
-from tests.reference import test_model_crosscheck as crosscheck
-from tests.support.scenarios import run
-from umbilical.control.allocation import adaptive
-from umbilical.plant import faults, winch
-from umbilical.scenario.control import AdaptiveAllocation
+from tests.support import broken
+from tests.support.broken import Break, another_scenario
+from umbilical.verify import FAMILIES
+from umbilical.verify.cases import Case, worst_ratio
 
 MARGIN = 10.0
+CASES = {case.name: case for cases in FAMILIES.values() for case in cases}
+HALF = another_scenario(broken.half_the_inertia_at_the_tip)
+UNORDERED = another_scenario(broken.a_force_nobody_ordered)
+BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
+    "half the inertia at the tip": (
+        HALF,
+        ("hanging cable*", "release*", "reflection*", "moving end, fixed", "vessel in motion*", "crosscheck-none"),
+    ),
+    "twice the damping": (another_scenario(broken.twice_the_damping), ("damp*", "reflection*")),
+    "loads a percent too large": (broken.loads_a_percent_too_large, ("static*", "cable settles*")),
+    "wrong sign of the winch speed": (
+        broken.wrong_sign_of_the_winch_speed,
+        ("moving end, [pht]*", "moving end, ROV held*", "manufactured*", "power balance*"),
+    ),
+    "dropped acceleration of the winch": (broken.dropped_acceleration, ("manufactured*",)),
+    "dropped jerk": (broken.dropped_jerk, ("power balance*",)),
+    "a tenth more inertia of the motor": (
+        another_scenario(broken.a_tenth_more("inertia")),
+        (
+            "motor, step*",
+            "motor, reversal*",
+            "motor, poles",
+            "motor, L*",
+        ),
+    ),
+    "a tenth more resistance": (another_scenario(broken.a_tenth_more("resistance")), ("motor, steady*",)),
+    "high-gain observer off by two": (broken.high_gain_observer_off_by_two, ("high-gain*", "whole cascade*")),
+    "disturbance observer off by two": (broken.disturbance_observer_off_by_two, ("disturbance observer of the ROV",)),
+    "motor's observer off by two": (broken.motor_observer_off_by_two, ("disturbance observer of a motor",)),
+    "disturbance observer off by two, in the loop": (
+        another_scenario(broken.twice_the_gain_of_the_disturbance_observer),
+        ("crosscheck-proposed*", "whole cascade*"),
+    ),
+    "damping gain off by two": (another_scenario(broken.twice_the_gain_on_damping), ("crosscheck-no-observer",)),
+    "position gain off by two": (another_scenario(broken.twice_the_gain_on_position), ("crosscheck-pd",)),
+    "wrong sign of the adaptive law": (broken.wrong_sign_of_the_adaptive_law, ("adaptive law*",)),
+    "faults one step late": (broken.faults_one_step_late, ("a fault on*",)),
+    "a fault that ends late": (another_scenario(broken.a_fault_that_ends_late), ("a fault that ends*",)),
+    "jumps that nobody publishes": (broken.jumps_that_nobody_publishes, ("pulses*",)),
+    "a force nobody ordered": (UNORDERED, ("superposition*", "mirror*", "shift*", "other units")),
+    "motors that never quite die": (broken.motors_that_never_quite_die, ("all motors dead",)),
+    "tension that never gets constant": (another_scenario(broken.tension_that_never_gets_constant), ("rho*",)),
+    "a ROV that depends on the grid": (another_scenario(broken.a_rov_that_depends_on_the_grid), ("refinement",)),
+}
+"""What is broken, and the cases that must notice, by pattern."""
 
 
-@pytest.mark.parametrize("speed", [5.0, -4.0])
-def test_wrong_sign_of_the_winch_speed(speed: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    right = winch.evaluate
-
-    def wrong(*arguments: Any) -> winch.WinchMotion:
-        motion = right(*arguments)
-        return motion._replace(speed=-motion.speed)
-
-    monkeypatch.setattr(winch, "evaluate", wrong)
-    result = moving_end.released(speed, step=2.5e-4)
-    everywhere, tip = moving_end.distance(result, moving_end.reference(speed, until=60.0), speed)
-    assert min(everywhere, tip) > MARGIN * moving_end.TOLERANCE
+def noticed(patterns: tuple[str, ...]) -> list[Case]:
+    return [case for name, case in CASES.items() if any(fnmatch(name, pattern) for pattern in patterns)]
 
 
-@pytest.mark.parametrize("way", [(100.0, 130.0), (130.0, 100.0)])
-def test_dropped_jerk_in_the_power_balance(way: tuple[float, float], monkeypatch: pytest.MonkeyPatch) -> None:
-    right = winch.evaluate
-    whole = residual(way, 16, 1e-3)
-
-    def wrong(*arguments: Any) -> winch.WinchMotion:
-        motion = right(*arguments)
-        return motion._replace(jerk=0.0 * motion.jerk)
-
-    monkeypatch.setattr(winch, "evaluate", wrong)
-    assert residual(way, 16, 1e-3) > MARGIN * max(whole, 1e-4)
+PAIRS = [
+    pytest.param(breaking, case, id=f"{what} - {case.name}", marks=[] if case.quick else [pytest.mark.slow])
+    for what, (breaking, patterns) in BREAKS.items()
+    for case in noticed(patterns)
+]
 
 
-def test_half_the_inertia_at_the_tip() -> None:
-    """Half the mass under twice the gravity pulls as before and weighs half: T is right, m is not."""
-    right = bessel.hanging(500.0, grid__elements=24)
-    wrong = right.replace({"payload.mass": 250.0, "cable.wet_line_density": 1.0, "environment.gravity": 20.0})
-    exact = bessel.bessel_frequencies(2.0, 500.0, 500.0, 6)
-    assert np.abs(bessel.six(wrong) / exact - 1.0).max() > MARGIN * bessel.TOLERANCE
-    assert np.abs(bessel.six(right) / exact - 1.0).max() < bessel.TOLERANCE
+@pytest.mark.parametrize(("breaking", "case"), PAIRS)
+def test_it_is_noticed(breaking: Break, case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
+    breaking(monkeypatch)
+    result = case.judge()
+    if result.skipped:
+        pytest.skip(result.skipped)
+    assert worst_ratio(result.checks) > MARGIN
 
 
-@pytest.mark.nojit
-@pytest.mark.parametrize("factor", [0.5, 2.0])
-def test_high_gain_observer_off_by_two(factor: float) -> None:
-    found, exact = measured_transfer(high_gain(time_constant=0.005 * factor), 200.0), exact_transfer(200.0)
-    assert abs(found - exact) > MARGIN * TRANSFER * abs(exact)
+def test_every_case_can_fail() -> None:
+    assert {case.name for _, patterns in BREAKS.values() for case in noticed(patterns)} == set(CASES)
 
 
-@pytest.mark.parametrize("gain", [5.0, 20.0])
-def test_disturbance_observer_off_by_two(gain: float) -> None:
-    found = run(umbilical.load("crosscheck-proposed", {"control.disturbance_observer.gain": gain})).metrics["tip_peak"]
-    assert abs(found / crosscheck.PROPOSED - 1.0) > MARGIN * crosscheck.TOLERANCE
-
-
-@pytest.mark.nojit
-def test_a_fault_one_step_late(monkeypatch: pytest.MonkeyPatch) -> None:
-    right = faults.effect
-
-    def wrong(timeline: Any, motor: int, target: Any, t: Any, side: Any = "right") -> Any:
-        return right(timeline, motor, target, np.asarray(t) - 1e-3, side)
-
-    monkeypatch.setattr(faults, "effect", wrong)
-    velocity = stuck(0.05)["tip_velocity"].values[55]
-    assert abs(velocity / (80.0 * 0.005 / TIP_MASS) - 1.0) > MARGIN * MOMENTUM
-
-
-@pytest.mark.nojit
-def test_a_pulse_between_two_steps_that_nobody_publishes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("umbilical.engine.simulate.published_jumps", lambda scenario: ())
-    velocity = pushed(pulse(0.05003, 0.05013))["tip_velocity"].values[51]
-    assert velocity == 0.0
-
-
-@pytest.mark.nojit
-def test_wrong_sign_of_the_adaptive_law() -> None:
-    """The ratchet turns the other way: kappa_0 falls where (27) makes it grow."""
-    record = AdaptiveAllocation(method="adaptive", rates=(0.1, 100.0, 50.0), leak=0.2, initial=(0.25, 0.0, 0.5))
-    law = adaptive.make_adaptation(record, 2, 1e-3)
-    law.form[adaptive.GAIN] *= -1.0
-    kappa = adaptive.initial_kappa(record, 2)
-    adaptive.adapt(law, kappa, 80.0, 0.05)
-    exact = 0.25 - 0.1 * 1e-3 * (80.0 * 0.05 + 0.2 * 0.25)
-    assert abs(kappa[0] - exact) > MARGIN * 1e-12 * abs(exact)
-    assert (kappa[0] - 0.25) * (exact - 0.25) < 0.0
+def test_every_pattern_means_a_case() -> None:
+    lost = [p for _, patterns in BREAKS.values() for p in patterns if not noticed((p,))]
+    assert lost == []

@@ -70,6 +70,14 @@ def motor_loops(thrust: float, w: np.ndarray, i: np.ndarray, f: np.ndarray, ups:
     return drive / F23, f_rate, ups_rate
 
 
+def motor_rates(
+    w: np.ndarray, i: np.ndarray, voltage: np.ndarray, disturbances: tuple[np.ndarray, np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Rates of speeds and currents under torques, N m, and voltages, V, from outside: (15)."""
+    torque, extra = disturbances
+    return (K_T * i - B * w - K_Q * abs(w) * w + torque) / J, (-R * i - K_B * w + voltage + extra) / L
+
+
 def rates(t: float, state: np.ndarray) -> np.ndarray:
     """Time derivative of y and Dy/Dt at nodes 1 to N, motors, observers, filters."""
     length, v, a = winch(t)
@@ -83,9 +91,7 @@ def rates(t: float, state: np.ndarray) -> np.ndarray:
 
     thrust, observer_rates = outer_law(y[N], slope, MASS * (GRAVITY - a), observers)
     voltage, filter_rates, ups_rate = motor_loops(thrust, speed, current, filters, ups)
-    torque, extra = motor_disturbances(t)
-    speed_rate = (K_T * current - B * speed - K_Q * abs(speed) * speed + torque) / J
-    current_rate = (-R * current - K_B * speed + voltage + extra) / L
+    speed_rate, current_rate = motor_rates(speed, current, voltage, motor_disturbances(t))
 
     y_rate, w_rate = w.copy(), np.empty(N + 1)
     carried = v * (1 - XI[1:N]) / (2 * h)

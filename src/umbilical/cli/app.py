@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, doctoring, drawing, listing, reading, running
+from umbilical.cli import benching, doctoring, drawing, listing, reading, running, verifying
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -40,6 +40,7 @@ for command in (
     listing.schema,
     doctoring.doctor,
     benching.bench,
+    verifying.verify,
 ):
     app.command()(command)
 

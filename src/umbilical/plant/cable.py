@@ -14,8 +14,8 @@ met likewise: ``p* = y_x + (V - W)/c`` with the last element's own values, so th
 or not, it feels the resistance ``Z = sqrt(rho T)`` of a cable that carries its waves away. Waves too short for
 the grid are damped, none is trapped or sent back. Stable hauling in as well as paying out.
 
-Order 5 in the element size for displacement and velocity; at the ROV higher (up to 8, measured in
-``tests/convergence``). Source of the method: Hesthaven, Warburton, *Nodal Discontinuous Galerkin Methods*, 2 and 6.
+Order in the element size: 5 for the velocity, 6 for the displacement, 7 at the ROV (``tests/convergence``).
+Source of the method: Hesthaven, Warburton, *Nodal Discontinuous Galerkin Methods*, 2 and 6.
 """
 
 from __future__ import annotations

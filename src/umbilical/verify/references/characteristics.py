@@ -93,3 +93,35 @@ class MovingEnd:
         for _ in range(60):  # contracts by |v|/c each time
             left = arrival - self._length(left) / self._speed
         return left
+
+
+class HeldEnd:
+    """Free response of a cable whose lower end is held while the upper one moves steadily, in closed form.
+
+    ``y = H(t + s/c) - H(t - s/c)`` with H odd in what the start gives, and repeated where the phase
+    ``R(t) = 2 ln(1 + b c t/l0)/ln((1 + b)/(1 - b))``, b = v/c, has grown by 2 (Moore; Balazs).
+
+    Args:
+        wave_speed: c, m/s.
+        length: at the start, m.
+        speed: v of the upper end, m/s, not 0.
+        start: displacement at rest, m, over arrays of the distance from the held end.
+    """
+
+    def __init__(self, wave_speed: float, length: float, speed: float, start: Curve) -> None:
+        self._c, self._l0, self._v, self._start = wave_speed, length, speed, start
+        b = speed / wave_speed
+        self._stretch = (1.0 + b) / (1.0 - b)
+
+    def __call__(self, distance: np.ndarray, t: float) -> np.ndarray:
+        """Displacement, m, at distances from the held end, m."""
+        lag = distance / self._c
+        return self._half(t + lag) - self._half(t - lag)
+
+    def _half(self, u: np.ndarray) -> np.ndarray:
+        """H: taken back, period of the phase by period, to where the start gives it."""
+        scaled = 1.0 + self._v * u / self._l0  # R grows by 2 where this is multiplied by the stretch
+        phase = np.log(scaled) / np.log(self._stretch)
+        periods = np.round(phase - np.log1p(-self._v / self._c) / np.log(self._stretch) - 0.5)
+        first = (scaled * self._stretch**-periods - 1.0) * self._l0 / self._v * self._c
+        return 0.5 * np.sign(first) * self._start(np.abs(first))

@@ -1,0 +1,91 @@
+"""``umbilical verify``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from typer import Option
+
+from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.targets import check_target
+
+if TYPE_CHECKING:
+    from umbilical.verify import Verification
+
+NOT_VERIFIED = 7
+FILES = ("verification.md", "verification.json", "convergence.svg")
+
+
+def verify(
+    quick: Annotated[bool, Option("--quick", help="Half a minute: leave out what takes long.")] = False,
+    out: Annotated[Path | None, Option("--out", metavar="DIR", help="Write table, data and pictures there.")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Compare this installation with closed forms, classical solutions and other codes.
+
+    Every row: what is compared with what, ours, theirs, the error, the tolerance and why that tolerance. The exit
+    code is 0 when all hold and 7 when one does not. With --out: verification.md, .json and convergence.svg.
+
+    \b
+    examples
+      umbilical verify --quick
+      umbilical verify --out evidence
+    """
+    targets = [out / name for name in FILES] if out else []
+    for target in targets:
+        check_target(target, (target.suffix.removeprefix("."),), force=force)
+    from umbilical.cli.progress import announce_compilation, bar
+    from umbilical.verify import verify_all
+
+    announce_compilation()
+    with bar("verifying") as advance:
+        found = verify_all(quick, progress=advance)
+    files = _write(found, targets, force)
+    if as_json:
+        say_json(found.document() | {"files": files})
+    else:
+        say("\n".join([_text(found), *(f"  {role}: {path}" for role, path in files.items())]))
+    return 0 if found.holds else NOT_VERIFIED
+
+
+def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:
+    """The files by role."""
+    if not targets:
+        return {}
+    from umbilical.plots import plot_convergence, save_figure
+    from umbilical.verify.page import data, page
+
+    report, numbers, picture = targets
+    from umbilical.files import write
+
+    write(report, page(found, picture.name).encode(), force=force)
+    write(numbers, data(found).encode(), force=force)
+    save_figure(plot_convergence(found.curves), picture, force=force)
+    return {"table": str(report), "data": str(numbers), "plots": str(picture)}
+
+
+def _text(found: Verification) -> str:
+    """The table, family by family, a case in a line of its own and its checks below."""
+    parts = []
+    for family, results in found.families.items():
+        lines = [family]
+        for result in results:
+            lines.append(f"  {result.case.name}: {result.case.reference} ({result.case.source})")
+            lines += [f"    skipped: {result.skipped}"] if result.skipped else []
+            lines.append(table([_row(check) for check in result.checks], right=(2, 3, 4, 5)))
+        parts.append("\n".join(filter(None, lines)))
+    return "\n\n".join([*parts, found.headline])
+
+
+def _row(check: Any) -> tuple[str, ...]:
+    return (
+        "holds" if check.holds else "FAILS",
+        check.quantity,
+        f"{check.ours:.8g}",
+        f"{check.expected:.8g}",
+        f"error {check.error:.1e}",
+        f"<= {check.tolerance:.0e}",
+        check.why,
+    )

@@ -1,0 +1,62 @@
+"""Errors over the size of what was refined, beside the stated slope."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.plots.figure import COLOURS, QUIET, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from umbilical.analysis.convergence import Curve
+
+COLUMNS = 3
+MARKERS = "osD^vP"
+
+
+def plot_convergence(curves: Sequence[Curve]) -> Figure:
+    """One panel for each case, on logarithmic axes: errors, and in grey the slope that is stated.
+
+    A curve's name is ``case: what``; curves of one case and one kind of refinement share a panel.
+    """
+    panels: dict[tuple[str, str], list[Curve]] = {}
+    for curve in curves:
+        panels.setdefault((curve.name.partition(": ")[0], curve.size), []).append(curve)
+    rows = -(-len(panels) // COLUMNS)
+    figure = new_figure(4.2 * COLUMNS, 3.2 * max(rows, 1))
+    for number, ((case, size), members) in enumerate(panels.items(), start=1):
+        _panel(figure.add_subplot(rows, COLUMNS, number), case, size, members)
+    return figure
+
+
+def _panel(ax: Axes, case: str, size: str, members: Sequence[Curve]) -> None:
+    for k, curve in enumerate(members):
+        what = curve.name.partition(": ")[2]
+        ax.loglog(curve.sizes, curve.errors, MARKERS[k % 6] + "-", color=COLOURS[k % 6], markersize=4, label=what)
+        _slope(ax, curve)
+    ax.set_title(case, fontsize=8.5, loc="left")
+    ax.set_xlabel(size.removeprefix("the ").replace(", ", " [") + "]", fontsize=8)
+    ax.set_ylabel("error", fontsize=8)
+    ax.set_xticks(members[0].sizes, [f"{value:.3g}" for value in members[0].sizes])
+    ax.set_xticks([], minor=True)
+    ax.tick_params(labelsize=7)
+    ax.yaxis.set_minor_formatter("")
+    ax.grid(alpha=0.25, linewidth=0.6)
+    ax.legend(fontsize=7, frameon=False)
+
+
+def _slope(ax: Axes, curve: Curve) -> None:
+    """The stated order, through the finest error."""
+    sizes = np.array(curve.sizes)
+    ax.loglog(sizes, curve.errors[-1] * (sizes / sizes[-1]) ** curve.order, color=QUIET, linewidth=0.9, linestyle=":")
+    ax.annotate(
+        f"{curve.order:g}",
+        (sizes[0], curve.errors[-1] * (sizes[0] / sizes[-1]) ** curve.order),
+        fontsize=7,
+        color=QUIET,
+    )

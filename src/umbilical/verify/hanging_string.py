@@ -1,0 +1,79 @@
+"""Natural frequencies of the hanging cable with a free ROV, from the Jacobian of the engine's own step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from umbilical.scenario.scenario import Scenario
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, close, each_close, small
+from umbilical.verify.ours import STEADY_TENSION, UNDAMPED, open_loop
+from umbilical.verify.references.hanging_string import HangingString, frequencies, steady_tension_frequencies
+
+TOLERANCE = 1e-4
+WHY = "asked for; half the ROV's inertia moves them by 1e-2"
+BESSEL = "J0(z1) Y2(z0) - Y0(z1) J2(z0) = 0, roots to 30 digits"
+SOURCE = "Frequencies of a hanging chain supporting an end mass"
+
+
+def hanging(string: HangingString, **overrides: object) -> Scenario:
+    """The string as a scenario, undamped."""
+    return open_loop(
+        winch__length=string.length, payload__mass=string.mass, cable__line_density=string.line_density,
+        environment__gravity=string.gravity, **overrides,
+    ).replace(UNDAMPED)  # fmt: skip
+
+
+def compared(string: HangingString, **overrides: object) -> Iterator[Check]:
+    """The first six frequencies, and that nothing decays or grows by itself."""
+    found = ours.poles(hanging(string, **overrides), 6)
+    exact = frequencies(string, 6)
+    yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
+    yield small(
+        "largest |decay|/w of the six", float(np.abs(np.real(found) / np.imag(found)).max()), 1e-6,
+        "what the scheme takes must not show in a run",
+    )  # fmt: skip
+
+
+def steady_tension() -> Iterator[Check]:
+    """The limit rho -> 0 in the tension only."""
+    found = ours.poles(hanging(HangingString()).replace(STEADY_TENSION), 6)
+    exact = steady_tension_frequencies(HangingString(), 6)
+    yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
+
+
+def pendulum() -> Iterator[Check]:
+    """A cable that weighs nothing beside its ROV: the first mode is a pendulum, the others are those of a fixed end."""
+    string = HangingString(line_density=2.0, mass=2e6)
+    found = np.imag(ours.poles(hanging(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
+    share = string.line_density * string.length / string.mass
+    yield close("w1, rad/s", found[0], np.sqrt(string.gravity / string.length), share, "the cable's share of the mass")
+    speed = np.sqrt(string.mass * string.gravity / string.line_density)
+    exact = np.arange(1, 4) * np.pi * speed / string.length
+    yield each_close("w2 ... w4, rad/s, the worst", found[1:], exact, share, "the cable's share of the mass")
+
+
+CASES = (
+    *(
+        Case(
+            f"hanging cable, l = {length:g} m",
+            BESSEL,
+            SOURCE,
+            lambda length=length: compared(HangingString(length=length)),
+        )
+        for length in (500.0, 400.0, 300.0)
+    ),
+    *(
+        Case(f"hanging cable, m = {mass:g} kg", BESSEL, SOURCE, lambda mass=mass: compared(HangingString(mass=mass)))
+        for mass in (50.0, 5000.0)
+    ),
+    Case(
+        "hanging cable, constant tension",
+        "cot b = (m/(rho l)) b, b = w l/c",
+        "textbook: string with a mass",
+        steady_tension,
+    ),
+    Case("hanging cable, rho l/m -> 0", "sqrt(g/l) and n pi c/l", "textbook: pendulum, fixed string", pendulum),
+)

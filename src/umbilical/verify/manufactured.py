@@ -1,0 +1,156 @@
+"""Manufactured solutions of the full problem: tension varying along the cable and in time, l growing and shrinking,
+both dampings, the vessel in motion, v, a and a' all at work. Observed orders on four grids, and the error's size.
+
+The solution is that of :mod:`umbilical.verify.references.manufactured`; what drives it enters as any user's load
+would, as tables, dense enough to count below the finest grid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from umbilical.analysis.convergence import Curve
+from umbilical.scenario.scenario import Scenario
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, order_reached, small
+from umbilical.verify.ours import constant, open_loop, sine
+from umbilical.verify.references import manufactured as exact
+from umbilical.verify.references.manufactured import Problem
+from umbilical.verify.stated import DISPLACEMENT_ORDER, TIME_ORDER, TIP_ORDER, VELOCITY_ORDER
+
+UNTIL = 2.0
+ALONG, OVER = 1001, 801
+"""Points of the tables along the cable, beside those at the nodes, and of those over time."""
+ELEMENTS = (4, 8, 16, 32)
+STEPS = (4e-3, 2e-3, 1e-3, 5e-4)
+FINE_STEPS = (2e-4, 1e-4)
+"""Two steps from which the error in time is taken out where the grid is studied."""
+SIZES = {"growing": 4.0, "shrinking": -4.0}
+
+
+class Answer(NamedTuple):
+    """y and Dy/Dt at the nodes at the end, and y at the ROV over time."""
+
+    sigma: np.ndarray
+    displacement: np.ndarray
+    velocity: np.ndarray
+    tip: np.ndarray
+
+
+def _positions(elements: int) -> np.ndarray:
+    """Where the tables have their points: at every node, where the engine reads them, and between."""
+    nodes = ours.completed(open_loop(grid__elements=elements, duration=0.01, output__interval=0.01))["sigma"].values
+    return np.unique(np.concatenate([nodes, np.linspace(0.0, 1.0, ALONG)]))
+
+
+@cache
+def _driven(swing: float, elements: int) -> Scenario:
+    """The scenario, at any step."""
+    problem = Problem(swing)
+    t, sigma = np.linspace(0.0, UNTIL, OVER), _positions(elements)
+
+    def history(values: np.ndarray) -> list[dict[str, Any]]:
+        return [{"kind": "table", "times": t.tolist(), "values": values.tolist()}]
+
+    loads = [
+        {
+            "profile": {"shape": "table", "positions": sigma.tolist(), "values": profile.tolist()},
+            "signal": history(values),
+        }
+        for profile, values in zip(exact.profiles(sigma), exact.load(problem, t), strict=True)
+    ]
+    return open_loop(
+        duration=UNTIL,
+        output__interval=0.1,
+        grid__elements=elements,
+        cable={"line_density": problem.line_density, "damping": problem.damping},
+        payload={"mass": problem.mass, "damping": problem.tip_damping},
+        environment__gravity=problem.gravity,
+        environment__cable_load=loads,
+        environment__payload_force=history(exact.force(problem, t)),
+        environment__vessel_motion=[constant(0.25), sine(-0.25, 1.3, np.pi / 2.0)],
+        winch={
+            "law": "cosine",
+            "start_length": problem.start_length,
+            "amplitude": swing,
+            "frequency": problem.frequency,
+        },
+        initial={"shape": "sine", "amplitude": 4.0 / 3.0, "half_waves": exact.WAVENUMBER / np.pi},
+    )
+
+
+def solve(swing: float, elements: int, step: float) -> Answer:
+    """The engine's answer at the end."""
+    run = ours.completed(_driven(swing, elements).replace({"grid.step": step, "control.period": step}))
+    return Answer(
+        run["sigma"].values, run["displacement"].values[-1], run["velocity"].values[-1], run["tip_displacement"].values
+    )
+
+
+def errors(swing: float, elements: int) -> tuple[float, float, float]:
+    """Root mean squares: of y and Dy/Dt along the cable at the end, of y at the ROV over time; no error in time.
+
+    That is taken out by extrapolation from two steps.
+    """
+    coarse, fine = (solve(swing, elements, step) for step in FINE_STEPS)
+    power = 2.0**TIME_ORDER
+    y, w, tip = ((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True))
+    sigma = fine.sigma
+    off_y = y - exact.displacement(sigma, UNTIL)
+    off_w = w - exact.velocity(Problem(swing), sigma, UNTIL)
+    off_tip = tip - exact.displacement(np.asarray(1.0), np.linspace(0.0, UNTIL, tip.size))
+    y_rms, w_rms = (float(np.sqrt(np.trapezoid(off**2, sigma))) for off in (off_y, off_w))
+    return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))
+
+
+def in_space(swing: float) -> Iterator[Check]:
+    """Orders in the size of an element, on four grids."""
+    found = np.array([errors(swing, n) for n in ELEMENTS])
+    sizes = tuple(60.0 / n for n in ELEMENTS)
+    why = "stated"
+    for row, name, order in zip(
+        found.T, ("y", "Dy/Dt", "y(l,t)"), (DISPLACEMENT_ORDER, VELOCITY_ORDER, TIP_ORDER), strict=True
+    ):
+        yield order_reached(Curve(name, "the element, m", sizes, tuple(row), order), why)
+    # The leading term of interpolation by polynomials of degree 4 on elements of size h: (k h)^5/(2^9 5!), |y| = 1.
+    leading = (exact.WAVENUMBER / ELEMENTS[-1]) ** 5 / (2.0**9 * 120.0)
+    yield small(
+        f"error of y on {ELEMENTS[-1]} elements, over the leading term", found[-1, 0] / leading, 10.0,
+        "(k h)^5/(2^9 5!), what degree 4 can resolve",
+    )  # fmt: skip
+
+
+def in_time(swing: float) -> Iterator[Check]:
+    """Orders in the step, from differences on one grid, where the grid's own error drops out."""
+    solutions = [solve(swing, 8, step) for step in STEPS]
+    for place, name in ((1, "y"), (2, "Dy/Dt")):
+        changes = [b[place] - a[place] for a, b in pairwise(solutions)]
+        along = Curve(
+            f"{name}, change", "the step, s", STEPS[:-1], tuple(float(np.abs(c).max()) for c in changes), TIME_ORDER
+        )
+        yield order_reached(along, "stated")
+    at_tip = tuple(float(np.abs(b.tip - a.tip).max()) for a, b in pairwise(solutions))
+    yield order_reached(Curve("y(l,t), change", "the step, s", STEPS[:-1], at_tip, TIME_ORDER), "stated")
+    found = solve(swing, 32, 1e-3)
+    off = np.abs(found.displacement - exact.displacement(found.sigma, UNTIL)).max()
+    # 3/8 dt^3 y_tttt t with |y| = 1 and the rates of p and q, up to 2 rad/s, and of the moving domain.
+    leading = 3.0 / 8.0 * 1e-9 * 2.5**4 * UNTIL
+    yield small("error of y at 1 ms on 32 elements, over the leading term", off / leading, 10.0, "3/8 dt^3 y_tttt t")
+
+
+CASES = tuple(
+    Case(
+        f"manufactured solution, l {way}, {what}",
+        "y = p sin(k sigma) + q cos(k sigma)",
+        "(6)-(8), loads derived by hand, checked by sympy",
+        lambda find=find, swing=swing: find(swing),
+        quick=False,
+    )
+    for way, swing in SIZES.items()
+    for what, find in (("in space", in_space), ("in time", in_time))
+)

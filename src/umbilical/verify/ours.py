@@ -1,0 +1,62 @@
+"""What the engine says: the runs and poles that the cases compare with their references.
+
+Everything a case knows of the engine passes here, through the public interface, so that a test can break the model
+in one place and see the case fail.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from umbilical.admission import load
+from umbilical.engine.linear import step_poles
+from umbilical.engine.simulate import simulate
+from umbilical.run import Run, Status
+from umbilical.scenario.scenario import Scenario
+from umbilical.verify.cases import CaseError
+
+UNDAMPED = {"cable.damping": 0.0, "payload.damping": 0.0}
+STEADY_TENSION = {"cable.wet_line_density": 0.0}
+
+
+def open_loop(**overrides: Any) -> Scenario:
+    """Cable and ROV alone: no control, no load, 500 m. Overrides with ``__`` for the dot of a key."""
+    return load("crosscheck-none", {"environment.payload_force": []} | dotted(overrides))
+
+
+def dotted(overrides: dict[str, Any]) -> dict[str, Any]:
+    """``cable__damping`` -> ``cable.damping``."""
+    return {key.replace("__", "."): value for key, value in overrides.items()}
+
+
+def sine(amplitude: float, frequency: float, phase: float = 0.0) -> dict[str, Any]:
+    """One term of a signal."""
+    return {"kind": "sine", "amplitude": amplitude, "frequency": frequency, "phase": phase}
+
+
+def constant(value: float) -> dict[str, Any]:
+    """One term of a signal."""
+    return {"kind": "constant", "value": value}
+
+
+def completed(scenario: Scenario) -> Run:
+    """A run that came to its end.
+
+    Raises:
+        CaseError: it did not.
+    """
+    run = simulate(scenario)
+    if run.status is not Status.COMPLETED:
+        raise CaseError(f"{run.status.name} at t = {run.end_time:g} s: {run.reason}")
+    return run
+
+
+def poles(scenario: Scenario, count: int) -> np.ndarray:
+    """The ``count`` slowest poles above the real axis, 1/s, of the engine's own step with the winch stopped.
+
+    Waves too short for the grid decay within a period or two: they belong to no mode of the cable.
+    """
+    found = step_poles(scenario)
+    return found[(found.imag > 1e-9) & (found.real > -0.3 * found.imag)][:count]

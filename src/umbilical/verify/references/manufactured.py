@@ -1,0 +1,118 @@
+"""A manufactured solution of the full problem, eqs. (6)-(8): every term at work, the length growing or shrinking.
+
+Chosen is ``y = p(t) sin(k sigma) + q(t) cos(k sigma)`` with sigma = x/l(t), which starts from rest. With ``A = 1 -
+sigma`` and ``b = v/l`` the material derivative is ``D/Dt = d/dt + b A d/dsigma``, so what must drive it, from
+
+    f = rho D2y/Dt2 - (T y_x)_x + c Dy/Dt         d = m D2y/Dt2 + T y_x + c_tip Dy/Dt  at the ROV
+
+is a sum of six profiles, ``{1, A, A^2} x {sin, cos}``, each with a history of its own, and ``e = q``.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+Array = np.ndarray
+WAVENUMBER = 2.3 * np.pi
+
+
+class Problem(NamedTuple):
+    """Cable and ROV, and ``l = l0 + s (1 - cos w t)``, which grows or shrinks with the sign of s until pi/w."""
+
+    swing: float
+    line_density: float = 2.0
+    mass: float = 50.0
+    gravity: float = 10.0
+    damping: float = 0.3
+    tip_damping: float = 5.0
+    start_length: float = 60.0
+    frequency: float = 1.0
+
+    def winch(self, t: Array) -> tuple[Array, Array, Array]:
+        """Length, speed, acceleration."""
+        w, s = self.frequency, self.swing
+        length = self.start_length + s * (1.0 - np.cos(w * t))
+        return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
+
+
+class Histories(NamedTuple):
+    """A history with its two time derivatives."""
+
+    value: Array
+    first: Array
+    second: Array
+
+
+def sine_part(t: Array) -> Histories:
+    """p(t) = 1 + cos(2 t)/3."""
+    return Histories(1.0 + np.cos(2.0 * t) / 3.0, -2.0 / 3.0 * np.sin(2.0 * t), -4.0 / 3.0 * np.cos(2.0 * t))
+
+
+def cosine_part(t: Array) -> Histories:
+    """q(t) = (1 - cos(1.3 t))/4: also the vessel's motion."""
+    w = 1.3
+    return Histories((1.0 - np.cos(w * t)) / 4.0, w * np.sin(w * t) / 4.0, w * w * np.cos(w * t) / 4.0)
+
+
+def displacement(sigma: Array, t: Array | float) -> Array:
+    """y, m."""
+    angle = WAVENUMBER * sigma
+    return sine_part(np.asarray(t)).value * np.sin(angle) + cosine_part(np.asarray(t)).value * np.cos(angle)
+
+
+def velocity(problem: Problem, sigma: Array, t: Array | float) -> Array:
+    """Dy/Dt, m/s."""
+    p, q = sine_part(np.asarray(t)), cosine_part(np.asarray(t))
+    length, speed, _ = problem.winch(np.asarray(t))
+    angle, slide = WAVENUMBER * sigma, WAVENUMBER * speed / length * (1.0 - sigma)
+    return (p.first - slide * q.value) * np.sin(angle) + (q.first + slide * p.value) * np.cos(angle)
+
+
+def profiles(sigma: Array) -> Array:
+    """The six profiles along the cable, shape (6, sigma): ``{1, A, A^2} x {sin, cos}``, sines first."""
+    above = 1.0 - sigma
+    waves = (np.sin(WAVENUMBER * sigma), np.cos(WAVENUMBER * sigma))
+    return np.array([above**power * wave for wave in waves for power in range(3)])
+
+
+def load(problem: Problem, t: Array) -> Array:
+    """Histories of the six profiles in f, N/m, shape (6, t)."""
+    k, rho, c = WAVENUMBER, problem.line_density, problem.damping
+    length, speed, acceleration = problem.winch(t)
+    net = problem.gravity - acceleration
+    b = speed / length
+    db = acceleration / length - b * b
+    p, q = sine_part(t), cosine_part(t)
+    rows = []
+    # D2/Dt2 (g S) = g'' S + (2 g' b + g b') A S' + g b^2 (A^2 S'' - A S'), and S' of a sine is k times a cosine.
+    for g, h, sign in ((p, q, -1.0), (q, p, 1.0)):
+        inertia = (
+            g.second,
+            sign * k * (2.0 * h.first * b + h.value * db - h.value * b * b),
+            -k * k * g.value * b * b,
+        )
+        # (T y_x)_x = (g - a)/l^2 [(m + rho l A) g S'' - rho l g S'].
+        slope = sign * k * h.value
+        pull = (
+            net / length**2 * (-problem.mass * k * k * g.value - rho * length * slope),
+            -net / length * rho * k * k * g.value,
+            0.0 * t,
+        )
+        drag = (g.first, sign * k * b * h.value, 0.0 * t)
+        rows += [rho * inertia[n] - pull[n] + c * drag[n] for n in range(3)]
+    return np.array(rows)
+
+
+def force(problem: Problem, t: Array) -> Array:
+    """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
+    p, q = sine_part(t), cosine_part(t)
+    length, _, acceleration = problem.winch(t)
+    s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
+    slope = WAVENUMBER / length * (p.value * c - q.value * s)
+    return (
+        problem.mass * (p.second * s + q.second * c)
+        + problem.mass * (problem.gravity - acceleration) * slope
+        + problem.tip_damping * (p.first * s + q.first * c)
+    )

@@ -1,0 +1,53 @@
+"""Deflection under a steady force P on the ROV, and what follows when the force is gone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, close, history_close
+from umbilical.verify.ours import UNDAMPED, constant, open_loop
+from umbilical.verify.references.hanging_string import HangingString, released_tip, static_shape
+
+FORCE, STRING = 100.0, HangingString()
+TOLERANCE = 1e-4
+WHY = "four digits; half the ROV's inertia moves the release by 1"
+LOGARITHM = "P/(rho g) ln((m + rho l)/(m + rho (l - x)))"
+SOURCE = "statics of the hanging string"
+
+
+def stays() -> Iterator[Check]:
+    """The cable starts in its static shape and nothing happens."""
+    scenario = open_loop(
+        initial={"shape": "static", "force": FORCE}, duration=40.0, environment__payload_force=[constant(FORCE)]
+    )
+    y = ours.completed(scenario)["displacement"]
+    exact = static_shape(STRING, FORCE, y["sigma"].values)
+    yield history_close("y at the start, m", y.values[0], exact, TOLERANCE, "interpolation on the grid")
+    yield history_close("y over 40 s, m", y.values, exact + 0.0 * y.values, TOLERANCE, WHY)
+
+
+def settles() -> Iterator[Check]:
+    """Proportional damping takes 0.15 1/s out of every mode: after 120 s nothing else is left."""
+    scenario = open_loop(
+        duration=120.0, cable__damping=0.6, payload__damping=150.0, environment__payload_force=[constant(FORCE)]
+    )
+    y = ours.completed(scenario)["displacement"]
+    exact = static_shape(STRING, FORCE, y["sigma"].values)
+    yield history_close("y after 120 s, m", y.values[-1], exact, TOLERANCE, "exp(-0.15 x 120) is 1.5e-8")
+    yield close("stiffness at the ROV, N/m", FORCE / y.values[-1, -1], FORCE / exact[-1], TOLERANCE, "the same")
+
+
+def released() -> Iterator[Check]:
+    """Undamped release from the static shape."""
+    scenario = open_loop(initial={"shape": "static", "force": FORCE}, duration=60.0).replace(UNDAMPED)
+    tip = ours.completed(scenario)["tip_displacement"]
+    exact = released_tip(STRING, FORCE, tip["time"].values)
+    yield history_close("y(l,t) over 60 s, m", tip.values, exact, TOLERANCE, WHY)
+
+
+CASES = (
+    Case("static shape stays", LOGARITHM, SOURCE, stays),
+    Case("cable settles in the static shape", LOGARITHM, SOURCE, settles),
+    Case("release from the static shape", "sum of 80 Bessel modes", SOURCE, released),
+)

@@ -1,0 +1,91 @@
+"""Damping: a damper at the ROV, damping in proportion to the mass everywhere, and what the ROV reflects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from umbilical.scenario.scenario import Scenario
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, close, each_close
+from umbilical.verify.ours import STEADY_TENSION, open_loop, sine
+from umbilical.verify.references.hanging_string import HangingString, damped_pole, frequencies
+
+STRING = HangingString(length=400.0)
+TOLERANCE = 1e-4
+WHY = "as for the frequencies"
+REAL = 1e-3
+WHY_REAL = "decay is a small part of a pole, so it gets a digit less"
+
+
+def damped(cable: float, payload: float) -> Scenario:
+    """The 400 m cable with dampers, N s/m2 and N s/m."""
+    scenario = open_loop(winch__length=STRING.length, grid__elements=24)
+    return scenario.replace({"cable.damping": cable, "payload.damping": payload})
+
+
+def proportional() -> Iterator[Check]:
+    """With c_tip = c m/rho every mode decays alike."""
+    rate = 0.04 / (2.0 * STRING.line_density)
+    found = ours.poles(damped(0.04, 0.04 * STRING.mass / STRING.line_density), 6)
+    exact = -rate + 1j * np.sqrt(frequencies(STRING, 6) ** 2 - rate**2)
+    yield each_close("six poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
+    yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
+
+
+def at_the_payload(damping: float) -> Iterator[Check]:
+    """Roots of the damped frequency equation next to the poles found."""
+    found = ours.poles(damped(0.0, damping), 5)
+    exact = np.array([damped_pole(STRING, damping, near=pole) for pole in found])
+    yield each_close("five poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
+    yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
+
+
+def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
+    """Amplitude and phase that come back from the ROV, from a cable shaken at the vessel until nothing else is left.
+
+    Constant tension: T = 5000 N, c = 50 m/s, Z = 100 N s/m. Up to down, ``R = (Z - k - i w m)/(Z + k + i w m)``.
+    """
+    impedance, mass, speed, length = 100.0, 500.0, 50.0, 100.0
+    scenario = open_loop(
+        winch__length=length, grid__elements=8, payload__damping=damping, cable__damping=0.0, duration=400.0,
+        environment__vessel_motion=[sine(1.0, frequency)], environment__vessel_ramp=20.0,
+    )  # fmt: skip
+    run = ours.completed(scenario.replace(STEADY_TENSION))
+    late = run["time"].values > 360.0
+    t, above = run["time"].values[late, None], length * (1.0 - run["sigma"].values)
+    down, up = np.exp(1j * frequency * (t + above / speed)), np.exp(1j * frequency * (t - above / speed))
+    # y = Re(down D + up U), with D arriving at the ROV and U leaving it.
+    columns = np.stack([q.ravel() for wave in (down, up) for q in (np.real(wave), -np.imag(wave))], axis=1)
+    d_re, d_im, u_re, u_im = np.linalg.lstsq(columns, run["displacement"].values[late].ravel(), rcond=None)[0]
+    found = complex(u_re, u_im) / complex(d_re, d_im)
+    load = damping + 1j * frequency * mass
+    exact = (impedance - load) / (impedance + load)
+    yield close("|R|", abs(found), abs(exact), REAL, "eight elements; half the ROV's inertia moves it by 1e-1")
+    yield close("arg R, rad", np.angle(found), np.angle(exact), REAL, "the same")
+
+
+CASES = (
+    Case(
+        "damping in proportion to the mass", "-c/(2 rho) +- i sqrt(w^2 - (c/2 rho)^2)", "Rayleigh damping", proportional
+    ),
+    *(
+        Case(
+            f"damper of {damping:g} N s/m at the ROV",
+            "(m s^2 + c_tip s) Y + T Y_x = 0, Bessel functions",
+            "boundary condition (8)",
+            lambda damping=damping: at_the_payload(damping),
+        )
+        for damping in (40.0, 400.0)
+    ),
+    *(
+        Case(
+            f"reflection at the ROV, damper {damping:g} N s/m",
+            "(Z - k - i w m)/(Z + k + i w m)",
+            "impedance of a string, Z = sqrt(rho T)",
+            lambda damping=damping: reflection(damping),
+        )
+        for damping in (40.0, 100.0)
+    ),
+)

@@ -1,0 +1,55 @@
+"""Manufactured solutions of the full problem: observed orders and sizes; and their loads, derived again by sympy."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import sympy
+
+from tests.support.verdicts import assert_holds, each
+from umbilical.verify import manufactured
+from umbilical.verify.cases import Case
+from umbilical.verify.references import manufactured as exact
+from umbilical.verify.references.manufactured import Problem
+
+
+@each(manufactured.CASES)
+def test_case(case: Case) -> None:
+    assert_holds(case)
+
+
+@pytest.mark.parametrize("swing", manufactured.SIZES.values(), ids=manufactured.SIZES)
+def test_the_loads_are_those_of_the_equations(swing: float) -> None:
+    """(6) and (8) applied to y by sympy, at points and instants of no meaning."""
+    pr = Problem(swing)
+    x, t = sympy.symbols("x t", real=True)
+    length = pr.start_length + swing * (1 - sympy.cos(pr.frequency * t))
+    speed, acceleration = sympy.diff(length, t), sympy.diff(length, t, 2)
+    angle = exact.WAVENUMBER * x / length
+    y = (1 + sympy.cos(2 * t) / 3) * sympy.sin(angle) + (1 - sympy.cos(1.3 * t)) / 4 * sympy.cos(angle)
+    tension = (pr.mass + pr.line_density * (length - x)) * (pr.gravity - acceleration)
+
+    def material(q: sympy.Expr) -> sympy.Expr:
+        return sympy.diff(q, t) + speed * sympy.diff(q, x)
+
+    w = material(y)
+    load = pr.line_density * material(w) - sympy.diff(tension * sympy.diff(y, x), x) + pr.damping * w
+    force = pr.mass * material(w) + tension * sympy.diff(y, x) + pr.tip_damping * w
+    derived = [sympy.lambdify((x, t), q, "numpy", cse=True) for q in (y, w, load, force)]
+    sigma = np.array([0.0, 0.13, 0.5, 0.77, 1.0])
+    for instant in (0.0, 0.37, 1.9):
+        place = sigma * pr.winch(np.array(instant))[0]
+        found = [
+            exact.displacement(sigma, instant),
+            exact.velocity(pr, sigma, instant),
+            exact.load(pr, np.array([instant]))[:, 0] @ exact.profiles(sigma),
+        ]
+        for ours, q in zip(found, derived[:3], strict=True):
+            np.testing.assert_allclose(ours, q(place, instant), rtol=1e-11, atol=1e-11)
+        tip = float(exact.force(pr, np.array([instant]))[0])
+        assert tip == pytest.approx(float(derived[3](place[-1], instant)), rel=1e-11)
+
+
+@pytest.mark.parametrize("swing", manufactured.SIZES.values())
+def test_the_start_is_at_rest(swing: float) -> None:
+    assert not exact.velocity(Problem(swing), np.linspace(0.0, 1.0, 7), 0.0).any()

@@ -1,0 +1,38 @@
+"""Frequencies, damped poles, reflection, static deflection and release of the hanging cable, in closed form."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.support.verdicts import assert_holds, each
+from umbilical.verify import hanging_string, static_deflection, tip_damper
+from umbilical.verify.cases import Case
+from umbilical.verify.references.hanging_string import HangingString, damped_pole, frequencies, static_shape
+
+PRINTED = {
+    500.0: (0.1536771590334, 0.483646205031, 0.8881725784718, 1.30776502146, 1.731946215684, 2.158067989623),
+    400.0: (0.1702, 0.5687, 1.056),
+    300.0: (0.1942, 0.7072),
+}
+
+
+@each((*hanging_string.CASES, *tip_damper.CASES, *static_deflection.CASES))
+def test_case(case: Case) -> None:
+    assert_holds(case)
+
+
+@pytest.mark.parametrize("length", PRINTED)
+def test_the_reference_has_the_printed_frequencies(length: float) -> None:
+    found = frequencies(HangingString(length=length), 6)[: len(PRINTED[length])]
+    np.testing.assert_allclose(found, PRINTED[length], rtol=3e-4 if length < 500.0 else 1e-11)
+
+
+def test_the_undamped_limit_of_the_damped_equation_is_the_undamped_one() -> None:
+    string = HangingString(length=400.0)
+    for frequency in frequencies(string, 4):
+        assert damped_pole(string, 0.0, near=1.001j * frequency) == pytest.approx(1j * frequency, rel=1e-12)
+
+
+def test_the_stiffness_at_the_payload_is_the_printed_one() -> None:
+    assert 100.0 / static_shape(HangingString(), 100.0, np.ones(1))[0] == pytest.approx(18.2, abs=0.01)

@@ -1,0 +1,23 @@
+"""The closed loop: peaks that two other codes agree on, and the law in continuous time in one integration."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.support.verdicts import assert_holds, each
+from umbilical.verify import cascade, crosscheck
+from umbilical.verify.cases import Case
+
+
+@each((*crosscheck.CASES, *cascade.CASES))
+def test_case(case: Case) -> None:
+    assert_holds(case)
+
+
+@pytest.mark.slow
+def test_the_reference_does_not_depend_on_its_degree() -> None:
+    """To a hundredth of what the case asks of the engine."""
+    (tip, thrust), (tip_finer, thrust_finer) = cascade.reference(), cascade.reference(32)
+    assert np.abs(tip - tip_finer).max() < 5e-6 * np.abs(tip).max()
+    assert np.abs(thrust - thrust_finer).max() < 1e-6 * np.abs(thrust).max()

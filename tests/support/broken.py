@@ -1,0 +1,165 @@
+"""Deliberately wrong models: each breaks one thing on its way into the kernels, at a seam that no kernel knows of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support.scenarios import sine
+from umbilical import Scenario
+from umbilical.control.allocation import adaptive
+from umbilical.control.motor import disturbance as of_motor
+from umbilical.control.observers import disturbance as of_payload
+from umbilical.control.observers import high_gain
+from umbilical.plant import faults, signals, winch
+from umbilical.verify import ours
+
+Break = Callable[[pytest.MonkeyPatch], None]
+
+
+def another_scenario(change: Callable[[Scenario], Mapping[str, Any]]) -> Break:
+    """The engine solves another problem than the one the reference solves."""
+
+    def apply(patch: pytest.MonkeyPatch) -> None:
+        for name in ("simulate", "step_poles"):
+            right = getattr(ours, name)
+            patch.setattr(ours, name, lambda scenario, right=right: right(scenario.replace(change(scenario))))
+
+    return apply
+
+
+def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
+    """Half the mass under twice the gravity pulls as before and weighs half: T is right, m is not."""
+    return {
+        "payload.mass": 0.5 * scenario.payload.mass,
+        "cable.wet_line_density": 0.5 * scenario.cable.hanging_density,
+        "environment.gravity": 2.0 * scenario.environment.gravity,
+    }
+
+
+def twice_the_damping(scenario: Scenario) -> Mapping[str, Any]:
+    return {"cable.damping": 2.0 * scenario.cable.damping, "payload.damping": 2.0 * scenario.payload.damping}
+
+
+def a_tenth_more(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
+    """Of a constant of the first motor."""
+    return lambda scenario: {f"motors.1.{key}": 1.1 * getattr(scenario.motors[0], key)}
+
+
+def a_force_nobody_ordered(scenario: Scenario) -> Mapping[str, Any]:
+    """1 N on the ROV, whatever else there is."""
+    return {"environment.payload_force": [*scenario.to_dict()["environment"]["payload_force"], sine(1.0, 3.0, 1.0)]}
+
+
+def a_fault_that_ends_late(scenario: Scenario) -> Mapping[str, Any]:
+    end = scenario.faults[0].end
+    assert end is not None
+    return {"faults.1.end": end + 1e-3}
+
+
+def tension_that_never_gets_constant(scenario: Scenario) -> Mapping[str, Any]:
+    return {"cable.wet_line_density": scenario.cable.hanging_density or 1e-3}
+
+
+def a_rov_that_depends_on_the_grid(scenario: Scenario) -> Mapping[str, Any]:
+    return {"payload.mass": scenario.payload.mass * (1.0 + 64.0 / scenario.grid.elements)}
+
+
+def twice_the_gain_of_the_disturbance_observer(scenario: Scenario) -> Mapping[str, Any]:
+    observer = scenario.control.disturbance_observer
+    assert observer is not None
+    return {"control.disturbance_observer.gain": 2.0 * observer.gain}
+
+
+def twice_the_gain_on_damping(scenario: Scenario) -> Mapping[str, Any]:
+    return {"control.law.damping_gain": 2.0 * getattr(scenario.control.law, "damping_gain")}  # noqa: B009
+
+
+def twice_the_gain_on_position(scenario: Scenario) -> Mapping[str, Any]:
+    return {"control.law.position_gain": 2.0 * getattr(scenario.control.law, "position_gain")}  # noqa: B009
+
+
+def _winch(change: Callable[[winch.WinchMotion], winch.WinchMotion]) -> Break:
+    def apply(patch: pytest.MonkeyPatch) -> None:
+        right = winch.evaluate
+        patch.setattr(winch, "evaluate", lambda *arguments: change(right(*arguments)))
+
+    return apply
+
+
+wrong_sign_of_the_winch_speed = _winch(lambda motion: motion._replace(speed=-motion.speed))
+dropped_acceleration = _winch(lambda motion: motion._replace(acceleration=0.0 * motion.acceleration))
+dropped_jerk = _winch(lambda motion: motion._replace(jerk=0.0 * motion.jerk))
+
+
+def loads_a_percent_too_large(patch: pytest.MonkeyPatch) -> None:
+    right = signals.evaluate
+    patch.setattr(signals, "evaluate", lambda *arguments: 1.01 * right(*arguments))
+
+
+def faults_one_step_late(patch: pytest.MonkeyPatch) -> None:
+    right = faults.effect
+
+    def wrong(timeline: Any, motor: int, target: Any, t: Any, side: Any = "right") -> Any:
+        return right(timeline, motor, target, np.asarray(t) - 1e-3, side)
+
+    patch.setattr(faults, "effect", wrong)
+
+
+def motors_that_never_quite_die(patch: pytest.MonkeyPatch) -> None:
+    right = faults.effect
+
+    def wrong(*arguments: Any) -> Any:
+        share, stuck = right(*arguments)
+        return np.maximum(share, 0.01), stuck
+
+    patch.setattr(faults, "effect", wrong)
+
+
+def jumps_that_nobody_publishes(patch: pytest.MonkeyPatch) -> None:
+    patch.setattr("umbilical.engine.simulate.published_jumps", lambda scenario: ())
+
+
+def high_gain_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
+    right = high_gain.make_high_gain
+
+    def wrong(record: Any, period: float) -> high_gain.HighGain:
+        return right(
+            record.model_copy(update={"time_constant": 2.0 * record.time_constant}) if record else None, period
+        )
+
+    patch.setattr(high_gain, "make_high_gain", wrong)
+    patch.setattr("umbilical.control.cascade.make_high_gain", wrong)
+
+
+def disturbance_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
+    right = of_payload.make_disturbance
+    patch.setattr(
+        of_payload,
+        "make_disturbance",
+        lambda record, h: right(record.model_copy(update={"gain": 2.0 * record.gain}), h),
+    )
+
+
+def motor_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
+    right = of_motor.advance_motor_disturbance
+
+    def wrong(constants: Any, gain: float, decay: float, *rest: float) -> float:
+        return right(constants, 2.0 * gain, decay * decay, *rest)
+
+    patch.setattr(of_motor, "advance_motor_disturbance", wrong)
+
+
+def wrong_sign_of_the_adaptive_law(patch: pytest.MonkeyPatch) -> None:
+    """The ratchet turns the other way: kappa_0 falls where (27) makes it grow."""
+    right = adaptive.make_adaptation
+
+    def wrong(*arguments: Any) -> adaptive.Adaptation:
+        law = right(*arguments)
+        law.form[adaptive.GAIN] *= -1.0
+        return law
+
+    patch.setattr("umbilical.control.cascade.make_adaptation", wrong)

@@ -1,0 +1,70 @@
+"""Write docs/validation.md and docs/convergence.svg: `.venv/bin/python tools/make_validation.py`, some minutes.
+
+It runs the whole of `umbilical verify`. The page shows of each case the check that comes nearest to its tolerance.
+Its numbers are not compared with anything afterwards, for the last digits differ between machines; that its cases are
+those of the command and that all hold is (tests/contract/test_validation.py).
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from umbilical.cli.progress import bar
+from umbilical.plots import plot_convergence, save_figure
+from umbilical.verify import Verification, verify_all
+from umbilical.verify.cases import Check, Result, worst_ratio
+from umbilical.verify.page import rounded
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+TEXT = Path(__file__).with_suffix(".md")
+PICTURE = "convergence.svg"
+HEAD = ("case", "against", "nearest to its tolerance", "ours", "reference", "error", "allowed, and why")
+
+
+def text(found: Verification) -> str:
+    """The page: what stands in make_validation.md, with headline and tables in their places."""
+    note = "<!-- Written by tools/make_validation.py; edit its text in tools/make_validation.md. -->"
+    body = TEXT.read_text(encoding="utf-8").replace("{headline}", found.headline).replace("{picture}", PICTURE)
+    title, _, rest = body.replace("{tables}", tables(found)).partition("\n")
+    return f"{title}\n\n{note}\n{rest}"
+
+
+def tables(found: Verification) -> str:
+    """One table for each family."""
+    parts = []
+    for family, results in found.families.items():
+        rows = [HEAD, ("---",) * len(HEAD), *map(row, results)]
+        lines = ("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows)
+        parts.append(f"### {family}\n\n" + "\n".join(lines))
+    return "\n\n".join(parts)
+
+
+def row(result: Result) -> tuple[str, ...]:
+    """A case, by the check that comes nearest to its tolerance."""
+    against = f"`{result.case.reference}`, {result.case.source}"
+    if result.skipped:
+        return result.case.name, against, f"**skipped**: {result.skipped}", "", "", "", ""
+    check = max(result.checks, key=nearness)
+    verdict = "" if result.holds else " **FAILS**"
+    shown = (f"{check.ours:.6g}", f"{check.expected:.6g}", rounded(check.error) + verdict)
+    return result.case.name, against, check.quantity, *shown, f"{check.tolerance:.0e}: {check.why}"
+
+
+def nearness(check: Check) -> float:
+    """Error over tolerance; a check that tolerates nothing comes last, unless it fails."""
+    return worst_ratio([check]) if check.tolerance or not check.holds else 0.0
+
+
+def main() -> int:
+    """Verify, write both files, and say what fails."""
+    with bar("verifying") as advance:
+        found = verify_all(progress=advance)
+    (DOCS / "validation.md").write_text(text(found), encoding="utf-8")
+    save_figure(plot_convergence(found.curves), DOCS / PICTURE, force=True)
+    print(found.headline)
+    return 0 if found.holds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
