@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from umbilical.engine.simulate import simulate
     from umbilical.plots import (
         plot_cable,
+        plot_certificate,
         plot_energy,
         plot_motors,
         plot_observers,
@@ -46,6 +47,7 @@ _HOMES = {
     "load": "umbilical.admission",
     "open_run": "umbilical.run",
     "plot_cable": "umbilical.plots",
+    "plot_certificate": "umbilical.plots",
     "plot_energy": "umbilical.plots",
     "plot_motors": "umbilical.plots",
     "plot_observers": "umbilical.plots",
@@ -68,6 +70,7 @@ __all__ = [
     "load",
     "open_run",
     "plot_cable",
+    "plot_certificate",
     "plot_energy",
     "plot_motors",
     "plot_observers",

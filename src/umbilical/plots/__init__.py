@@ -10,6 +10,7 @@ opens a window, changes a global setting, or keeps a figure alive.
 """
 
 from umbilical.plots.cable import plot_cable, plot_positions
+from umbilical.plots.certificate import plot_certificate
 from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
 from umbilical.plots.motors import plot_motors
@@ -34,6 +35,7 @@ __all__ = [
     "plot_all_motors",
     "plot_all_observers",
     "plot_cable",
+    "plot_certificate",
     "plot_energy",
     "plot_motors",
     "plot_observers",

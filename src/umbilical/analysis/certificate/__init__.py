@@ -3,8 +3,20 @@
 The theory is docs/certificates.md. ``search.py`` finds numbers, ``proof.py`` verifies them without it.
 """
 
-from umbilical.analysis.certificate.bounds import bound, displacement_bound
+from umbilical.analysis.certificate.bounds import bound, displacement_bound, lyapunov_of
+from umbilical.analysis.certificate.cable_bound import cable_bound
 from umbilical.analysis.certificate.certify import certify
-from umbilical.analysis.certificate.records import Certificate, Inequality, Proof, Weights
+from umbilical.analysis.certificate.records import Certificate, Inequality, Proof, Start, Weights
 
-__all__ = ["Certificate", "Inequality", "Proof", "Weights", "bound", "certify", "displacement_bound"]
+__all__ = [
+    "Certificate",
+    "Inequality",
+    "Proof",
+    "Start",
+    "Weights",
+    "bound",
+    "cable_bound",
+    "certify",
+    "displacement_bound",
+    "lyapunov_of",
+]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.certificate.loads import Loads
-from umbilical.analysis.certificate.records import Certificate, Weights
+from umbilical.analysis.certificate.records import Certificate, Start, Weights
 from umbilical.analysis.certificate.setting import Loop, Motion
 from umbilical.plant import signals, winch
 from umbilical.plant.signals import spline
@@ -21,26 +21,29 @@ POINTS = 400
 
 
 class Residual(NamedTuple):
-    """``V' <= -(th - spent) V + power``: spent in 1/s, power (the Th of the paper) in W."""
+    """``V' <= -(th - spent) V + power``: spent in 1/s, power (the Th of the paper) in W; ``cable``: without V3, W."""
 
     spent: float
     power: float
+    cable: float
 
 
 def residual_of(loop: Loop, motion: Motion, weights: Weights, rate: float, loads: Loads) -> Residual:
-    """What bounded loads leave of the decay, section 7.
+    """What bounded loads leave of the decay.
 
     Half the rate pays for loads along the cable, if there are any: that makes their share of the final bound
     smallest. D' is that of the force on the ROV alone, since an ideal thruster delivers what is commanded.
     """
-    spent = 0.5 * rate if loads.cable else 0.0
-    power = loads.cable / (2.0 * loop.rho * spent) if loads.cable and spent > 0.0 else 0.0
-    power = float("inf") if loads.cable and not spent > 0.0 else power
+    spent = max(0.5 * rate, 0.0) if loads.cable else 0.0
+    of_cable = 0.0
+    if loads.cable:
+        of_cable = loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
+    of_cable += _of_vessel(loop, motion, weights, loads.vessel_velocity)
     if loop.k_s is None:
-        power += weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
+        of_law = weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
     else:
-        power += weights.boundary * loads.force_rate**2 / (2.0 * loop.k_s**2 * loop.vs)
-    return Residual(spent, power + _of_vessel(loop, motion, weights, loads.vessel_velocity))
+        of_law = weights.boundary * loads.force_rate**2 / (2.0 * loop.k_s**2 * loop.vs)
+    return Residual(spent, of_cable + of_law, of_cable)
 
 
 def _of_vessel(loop: Loop, motion: Motion, weights: Weights, velocity: float) -> float:
@@ -53,16 +56,21 @@ def _of_vessel(loop: Loop, motion: Motion, weights: Weights, velocity: float) ->
     return float((pull / (2.0 * pays) + 0.5 * loop.rho * (motion.v - weights.vessel)).max()) * velocity**2
 
 
-def start_of(loop: Loop, scenario: Scenario, weights: Weights) -> float:
-    """V at the start of the run, J: at rest in its initial shape, with ``D^ = 0``."""
+def start_of(loop: Loop, scenario: Scenario) -> Start:
+    """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
     motion = winch.evaluate(scenario.winch, 0.0)
     length, net = float(motion.length), loop.g - float(motion.acceleration)
     x = np.linspace(0.0, length, 16 * POINTS + 1)
     slope = _initial_slope(scenario, length, net)(x)
+    strain = 0.5 * np.trapezoid(tension(length - x, net, loop.m, loop.hanging) * slope**2, x)
     force = float(signals.evaluate(scenario.environment.payload_force, 0.0))
-    strain = np.trapezoid(tension(length - x, net, loop.m, loop.hanging) * slope**2, x)
-    of_force = 0.0 if loop.k_s is None else force**2 / (loop.k_s * loop.vs)
-    return float(0.5 * strain + 0.5 * weights.boundary * (loop.m * (loop.beta * slope[-1]) ** 2 + of_force))
+    return Start(float(strain), float(loop.beta * slope[-1]), force)
+
+
+def lyapunov_of(loop: Loop, weights: Weights, start: Start) -> float:
+    """V at the start, J."""
+    of_force = 0.0 if loop.k_s is None else start.missed**2 / (loop.k_s * loop.vs)
+    return start.cable + 0.5 * weights.boundary * (loop.m * start.error**2 + of_force)
 
 
 def _initial_slope(scenario: Scenario, length: float, net: float) -> Callable[[np.ndarray], np.ndarray]:
@@ -120,30 +128,30 @@ def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -
     >>> bound(certificate, np.array([0.0, 60.0]), start=1.0).round(2).tolist()
     [1.0, 0.47]
     """
-    instants = np.asarray(t, dtype=np.float64)
-    value, now = certificate.start if start is None else start, 0.0
-    marks = np.unique(np.concatenate([instants, certificate.edges, [at for at, _ in certificate.force_steps]]))
-    steps, found = dict(certificate.force_steps), {}
+    loop, instants = certificate.loop, np.asarray(t, dtype=np.float64)
+    value, now = lyapunov_of(loop, certificate.weights, certificate.start) if start is None else start, 0.0
+    scale = 0.0 if loop.k_s is None else float(np.sqrt(certificate.weights.boundary / (2.0 * loop.k_s * loop.vs)))
+    steps = {at: scale * size for at, size in certificate.loads.force_jumps}
+    marks, found = np.unique(np.concatenate([instants, certificate.edges, list(steps)])), {}
     stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
     for mark in marks.tolist():
-        value = _advance(certificate, value, now, mark)
-        if 0.0 < mark:  # what happens at the start is in the start
-            value *= stretch.get(mark, 1.0)
-            value = (np.sqrt(value) + steps.get(mark, 0.0)) ** 2
+        value = _advance(certificate, value, now, mark, certificate.residual)
+        if mark > 0.0:  # what happens at the start is in the start
+            value = (np.sqrt(value * stretch.get(mark, 1.0)) + steps.get(mark, 0.0)) ** 2
         found[mark], now = value, mark
     return np.array([found[instant] for instant in instants.tolist()])
 
 
-def _advance(certificate: Certificate, value: float, begin: float, end: float) -> float:
-    """V after some time within one slab: the solution of ``V' = -(th - spent) V + residual``."""
+def _advance(certificate: Certificate, value: float, begin: float, end: float, power: float) -> float:
+    """V after some time within one slab: the solution of ``V' = -(th - spent) V + power``."""
     slab = int(np.clip(np.searchsorted(certificate.edges, begin, side="right") - 1, 0, certificate.rates.size - 1))
     rate, dt = float(certificate.rates[slab]) - certificate.spent, end - begin
     gained = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
-    return value * float(np.exp(-rate * dt)) + (certificate.residual * gained if certificate.residual else 0.0)
+    return value * float(np.exp(-rate * dt)) + (power * gained if power else 0.0)
 
 
 def displacement_bound(certificate: Certificate, v_bound: float) -> tuple[float, float]:
-    """Bound of |y| at the middle of the cable and at the ROV, m, where V is at most ``v_bound``, J.
+    """Bound of |y| at the middle of the cable and at the ROV, m, where V, or V1 + V2, is at most ``v_bound``, J.
 
     The bound grows from the vessel to the ROV, so the second one holds for the whole cable.
     """

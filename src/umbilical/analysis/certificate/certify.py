@@ -60,14 +60,14 @@ def certify(scenario: Scenario) -> Certificate:
     weights, wanted = _choice(loop, motion, found)
     proved, proof = _proved(loop, scenario, edges, wanted, weights, moves)
     rate = float(proved.min())
-    spent, residual = residual_of(loop, motion, weights, rate, loads)
+    spent, residual, cable_residual = residual_of(loop, motion, weights, rate, loads)
     stated = conditions(loop, motion, weights, float(np.nan_to_num(proved).max()))
     return Certificate(
-        scenario=scenario.name,
-        scenario_hash=scenario.hash,
+        scenario=scenario,
         inequalities=tuple(tightest(condition, motion) for condition in stated),
         margins=relative_margins(stated),
         paper=paper_conditions(loop, motion, weights, loads.cable > 0.0),
+        loop=loop,
         weights=weights,
         edges=edges,
         rates=proved,
@@ -75,13 +75,13 @@ def certify(scenario: Scenario) -> Certificate:
         fixed_length_rate=best_rate(loop, stopped(motion)),
         exact_rate=energy_rate(loop, float(motion.l.max())),
         loads=loads,
-        force_steps=_force_steps(loop, weights, loads.force_jumps),
         spent=spent,
         residual=residual,
-        start=start_of(loop, scenario, weights),
+        cable_residual=cable_residual,
+        start=start_of(loop, scenario),
         reach=(reach_of(loop, motion, weights, 0.5), reach_of(loop, motion, weights, 1.0)),
         proof=proof,
-        cures=() if rate > 0.0 else cures(loop, motion, moves),
+        cures=() if rate > 0.0 else cures(loop, motion),
         limits=_limits(scenario),
     )
 
@@ -92,7 +92,7 @@ def _choice(loop: Loop, motion: Motion, found: tuple[float, float] | None) -> tu
         room = extent(loop, motion)
         cross, vessel = SLACK * float(room.reach.min()) / float(motion.l.max()), room.least_vessel
         return Weights(cross, vessel, boundary_weight(loop, motion, 0.0)), np.full(motion.t.shape[0], np.nan)
-    sampled_rates = rates(loop, motion, *map(np.float64, found)).min(axis=1)
+    sampled_rates = rates(loop, motion, *found).min(axis=1)
     capped = np.minimum(sampled_rates, rate_limit(loop))
     wanted = capped - SLACK * np.abs(capped).max()
     return Weights(*found, boundary_weight(loop, motion, float(wanted.max()))), wanted
@@ -124,16 +124,6 @@ def _stretch(loop: Loop, motion: Motion, weights: Weights) -> np.ndarray:
     share = loop.rho * (weights.vessel + weights.cross * motion.l[1:, 0]) ** 2 / pull
     growth = 1.0 + np.maximum(net_after / net_before - 1.0, 0.0) / np.maximum(1.0 - share, 1e-300)
     return np.concatenate([[1.0], np.where(net_after > net_before * (1.0 + 1e-12), growth, 1.0), [1.0]])
-
-
-def _force_steps(
-    loop: Loop, weights: Weights, jumps: tuple[tuple[float, float], ...]
-) -> tuple[tuple[float, float], ...]:
-    """What a jump of the force on the ROV adds to the root of V, sqrt(J), by instant."""
-    if loop.k_s is None:
-        return ()
-    scale = float(np.sqrt(weights.boundary / (2.0 * loop.k_s * loop.vs)))
-    return tuple((t, scale * size) for t, size in jumps)
 
 
 def _limits(scenario: Scenario) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from umbilical.analysis.certificate.setting import Loop, Motion
 from umbilical.relations.formulas import tension
 
 Array = np.ndarray
+Real = Any  # a float or an array
 
 
 class Extent(NamedTuple):
@@ -35,18 +36,24 @@ SLACK = 1e-3
 
 
 def extent(loop: Loop, motion: Motion) -> Extent:
-    """The room that K1, K2 and K4 leave."""
+    """The room that K1, K2 and K4 leave.
+
+    Between samples the speed may fall a little lower, unless it is exactly 0 there, as at both ends of a smooth law.
+    """
     reach = np.minimum(loop.beta, _wave_speed_squared(loop, motion) / loop.beta) * (1.0 - SLACK)
-    return Extent(reach, max(0.0, -float(motion.v.min())) * (1.0 + SLACK))
+    lowest, largest = float(motion.v.min()), float(abs(motion.v).max())
+    if abs(lowest) <= 1e-12 * largest:
+        return Extent(reach, 0.0)
+    return Extent(reach, max(0.0, SLACK * largest - lowest))
 
 
-def largest_cross(motion: Motion, room: Extent, vessel: Array) -> Array:
+def largest_cross(motion: Motion, room: Extent, vessel: Real) -> Array:
     """Largest lam/gam for each lam x0/gam, 1/s; ``vessel`` has any shape."""
     share = room.reach.ravel() - np.asarray(vessel)[..., None]
     return (share / motion.l.ravel()).min(axis=-1)
 
 
-def rates(loop: Loop, motion: Motion, cross: Array, vessel: Array) -> Array:
+def rates(loop: Loop, motion: Motion, cross: Real, vessel: Real) -> Array:
     """Best th that K5 allows at every sample, 1/s; minus infinity where K0 fails.
 
     The smaller root of ``det(M - th/2 N) = 0`` at both ends of the cable. ``cross`` and ``vessel`` broadcast
@@ -55,7 +62,7 @@ def rates(loop: Loop, motion: Motion, cross: Array, vessel: Array) -> Array:
     return np.minimum(*(_rate_at(loop, motion, cross, vessel, end) for end in (0.0, 1.0)))
 
 
-def _rate_at(loop: Loop, motion: Motion, cross: Array, vessel: Array, sigma: float) -> Array:
+def _rate_at(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float) -> Array:
     n11, n12, n22, m11, m12, m22 = _matrices(loop, motion, cross, vessel, sigma)
     a, b, c = n11 * n22 - n12 * n12, m11 * n22 + m22 * n11 - 2.0 * m12 * n12, m11 * m22 - m12 * m12
     root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
@@ -64,7 +71,7 @@ def _rate_at(loop: Loop, motion: Motion, cross: Array, vessel: Array, sigma: flo
     return np.where(a > 0.0, 2.0 * smaller, -np.inf)
 
 
-def _matrices(loop: Loop, motion: Motion, cross: Array, vessel: Array, sigma: float) -> tuple[Array, ...]:
+def _matrices(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float) -> tuple[Array, ...]:
     """Entries 11, 12, 22 of N, then of M, at one end of the cable."""
     rho, net = loop.rho, loop.g - motion.a
     q = vessel + cross * sigma * motion.l
@@ -103,7 +110,9 @@ def conditions(loop: Loop, motion: Motion, weights: Weights, rate: float) -> tup
     """K0 to K6 at every sample; ``rate`` is the largest th of the run, which K6 must carry."""
     shape = motion.t.shape
     return tuple(
-        Condition(name, text, np.broadcast_to(left, shape), np.broadcast_to(right, shape), unit, sigma, "<=" not in text)
+        Condition(
+            name, text, np.broadcast_to(left, shape), np.broadcast_to(right, shape), unit, sigma, "<=" not in text
+        )
         for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, rate)
     )
 
@@ -113,7 +122,7 @@ def _conditions(loop: Loop, motion: Motion, weights: Weights, rate: float) -> It
     reach, speed_squared = offset + lam * motion.l, _wave_speed_squared(loop, motion)
     top_squared = speed_squared + loop.hanging / loop.rho * motion.l * (loop.g - motion.a)
     pull = loop.rho * speed_squared
-    ends = [_rate_at(loop, motion, np.float64(lam), np.float64(offset), end) for end in (0.0, 1.0)]
+    ends = [_rate_at(loop, motion, lam, offset, end) for end in (0.0, 1.0)]
     tighter = float(ends[1].min() < ends[0].min())
     carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
     yield "wave", "v^2 < T_0/rho", motion.v**2, top_squared, "m2/s2", 0.0
@@ -143,7 +152,8 @@ def relative_margins(found: tuple[Condition, ...]) -> dict[str, Array]:
         left, right = condition.left, condition.right
         scale = np.maximum(np.abs(left), np.abs(right)).max() or 1.0
         worst = ((right - left) / scale).min(axis=1)
-        margins[condition.name] = np.minimum(worst, margins.get(condition.name, worst))
+        known = margins.get(condition.name)
+        margins[condition.name] = worst if known is None else np.minimum(worst, known)
     return margins
 
 

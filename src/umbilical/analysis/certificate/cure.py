@@ -11,15 +11,15 @@ from umbilical.analysis.certificate.search import best_weights
 from umbilical.analysis.certificate.setting import Loop, Motion
 from umbilical.errors import Problem
 
-TRIED, HALVINGS = 49, 14
+TRIED, HALVINGS = 25, 10
 
 
-def cures(loop: Loop, motion: Motion, vessel_moves: bool) -> tuple[Problem, ...]:
+def cures(loop: Loop, motion: Motion) -> tuple[Problem, ...]:
     """The range of ``control.law.slope_gain`` in which a positive rate can be certified, or that there is none."""
     thin = Motion(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
 
     def certified(beta: float) -> bool:
-        return best_rate(loop._replace(beta=beta), thin, vessel_moves) > 0.0
+        return best_rate(loop._replace(beta=beta), thin, enough=0.0) > 0.0
 
     slowest_wave = float(np.sqrt(loop.m * (loop.g - motion.a.max()) / loop.rho))
     tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
@@ -32,10 +32,13 @@ def cures(loop: Loop, motion: Motion, vessel_moves: bool) -> tuple[Problem, ...]
     return (_range(loop, motion, low, high),)
 
 
-def best_rate(loop: Loop, motion: Motion, vessel_moves: bool = False) -> float:
-    """The largest smallest rate of V over the samples, 1/s; minus infinity where K1, K2 and K4 leave no room."""
-    found = best_weights(loop, motion, vessel_moves=vessel_moves)
-    return -np.inf if found is None else float(rates(loop, motion, *map(np.float64, found)).min())
+def best_rate(loop: Loop, motion: Motion, *, enough: float = np.inf) -> float:
+    """The largest smallest rate of V over the samples, 1/s, or one above ``enough``.
+
+    Minus infinity where K1, K2 and K4 leave no room.
+    """
+    found = best_weights(loop, motion, enough=enough)
+    return -np.inf if found is None else float(rates(loop, motion, *found).min())
 
 
 def _edge(certified: Callable[[float], bool], good: float, bad: float) -> float:

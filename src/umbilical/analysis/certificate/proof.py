@@ -8,13 +8,13 @@ In t a box is halved until its intervals decide.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from mpmath.ctx_iv import MPIntervalContext
 
-from umbilical.analysis.certificate.proof_motion import motion_over
+from umbilical.analysis.certificate.proof_motion import Motion, motion_over
 from umbilical.analysis.certificate.records import Proof, Weights
 from umbilical.analysis.certificate.setting import Loop
 from umbilical.scenario.winch import Winch
@@ -43,78 +43,127 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
     """
     ctx: Any = MPIntervalContext()
     ctx.prec = BITS
-    numbers = {name: ctx.mpf(value) for name, value in (loop._asdict() | weights._asdict()).items() if value is not None}
+    numbers = {
+        name: ctx.mpf(value) for name, value in (loop._asdict() | weights._asdict()).items() if value is not None
+    }
     boxes, left_open = 0, []
     for begin, end, rate in zip(edges[:-1].tolist(), edges[1:].tolist(), rates.tolist(), strict=True):
-        for name, open_from, open_to, count in _slab(ctx, numbers, winch, (begin, end), rate, strict):
-            boxes += count
-            if name:
-                left_open.append((name, open_from, open_to))
+        count, name, where = _slab(ctx, numbers, winch, (begin, end), rate, strict)
+        boxes += count
+        if name:
+            left_open.append((name, *where))
     return Proof(not left_open, boxes, tuple(left_open))
 
 
+class Box(NamedTuple):
+    """Numbers of loop and certificate, and what the winch does in a box of time: speed, jerk, net gravity g - a.
+
+    ``reach`` is lam (l + x0)/gam, ``mass`` what hangs at the vessel; ``pull_top`` and ``pull`` are the tension at both
+    ends.
+    """
+
+    n: Mapping[str, Interval]
+    rate: Interval
+    v: Interval
+    jerk: Interval
+    net: Interval
+    reach: Interval
+    mass: Interval
+    pull_top: Interval
+    pull: Interval
+
+
 def _slab(
-    ctx: Any, numbers: dict[str, Interval], winch: Winch, slab: tuple[float, float], rate: float, strict: bool
-) -> Iterator[tuple[str, float, float, int]]:
-    """Decide one slab; yields what stays open, and at the end the number of boxes."""
+    ctx: Any, numbers: Mapping[str, Interval], winch: Winch, slab: tuple[float, float], rate: float, strict: bool
+) -> tuple[int, str, tuple[float, float]]:
+    """Decide one slab: boxes it took, and the condition and the box that stayed open; a half is asked only for what
+    its whole left undecided."""
     if not np.isfinite(rate):
-        yield "K5", *slab, 0
-        return
-    waiting, count = [(*slab, 0)], 0
+        return 0, "K5", slab
+    waiting, count = [(*slab, 0, tuple(CONDITIONS))], 0
     while waiting:
-        begin, end, depth = waiting.pop()
+        begin, end, depth, asked = waiting.pop()
         count += 1
-        undecided = [
-            (name, value)
-            for name, value, above in _conditions(numbers, *motion_over(ctx, winch, begin, end), rate=ctx.mpf(rate))
-            if not (value.a > 0 if above or (strict and name == "K4") else value.a >= 0)
-        ]
-        if not undecided:
-            continue
-        name, value = undecided[0]
-        if value.b < 0 or depth >= FEWEST or count > MOST:
-            yield name, begin, end, count
-            return
-        middle = 0.5 * (begin + end)
-        waiting += [(begin, middle, depth + 1), (middle, end, depth + 1)]
-    yield "", *slab, count
+        box = _box(numbers, motion_over(ctx, winch, begin, end), ctx.mpf(rate))
+        verdicts = {name: _verdict(name, box, strict) for name in asked}
+        undecided = tuple(name for name, verdict in verdicts.items() if verdict is not True)
+        if undecided:
+            refuted = [name for name in undecided if verdicts[name] is False]
+            if refuted or depth >= FEWEST or count > MOST:
+                return count, (refuted or undecided)[0], (begin, end)
+            middle = 0.5 * (begin + end)
+            waiting += [(begin, middle, depth + 1, undecided), (middle, end, depth + 1, undecided)]
+    return count, "", slab
 
 
-def _conditions(
-    n: dict[str, Interval], l: Interval, v: Interval, a: Interval, jerk: Interval, rate: Interval  # noqa: E741
-) -> Iterator[tuple[str, Interval, bool]]:
-    """Name, what must not be negative, and whether it must be positive."""
-    rho, beta, m, lam, offset, eta = n["rho"], n["beta"], n["m"], n["cross"], n["vessel"], n["boundary"]
-    net, reach = n["g"] - a, offset + lam * l
-    top_mass = m + n["hanging"] * l
-    pull_top, pull = top_mass * net, m * net
-    yield "wave", net, True
-    yield "wave", pull_top - rho * v**2, True
-    for coefficient in _bernstein(ends=(pull_top, pull), line=(offset, reach), factor=rho):
-        yield "K0", coefficient, True
-    yield "K1", pull - beta * rho * reach, False
-    yield "K2", beta - reach, False
-    yield "K3", 2 * beta * eta * n["k_a"] - pull, True
-    yield "K4", v + offset, False
-    # A, B, C: entries of M - th/2 N; A is constant in x, B and C are lines.
-    corner = n["c"] + rho * (lam - rate) / 2
-    side = [(q * (n["c"] - rate * rho) - rho * v * lam) / 2 for q in (offset, reach)]
-    gain = lam - rate
-    far = [(mass * (gain * net + jerk) + q * n["hanging"] * net) / 2 for mass, q in ((top_mass, offset), (m, reach))]
-    yield "K5", corner, False
-    for coefficient in _bernstein(ends=(corner * far[0], corner * far[1]), line=(side[0], side[1]), factor=1):
-        yield "K5", coefficient, False
-    yield "K6", 2 * eta * n["k_a"] - pull / beta - rate * eta * m, False
+def _box(n: Mapping[str, Interval], motion: Motion, rate: Interval) -> Box:
+    length, v, a, jerk = motion
+    net, mass = n["g"] - a, n["m"] + n["hanging"] * length
+    return Box(n, rate, v, jerk, net, n["vessel"] + n["cross"] * length, mass, mass * net, n["m"] * net)
+
+
+def _verdict(name: str, box: Box, strict: bool) -> bool | None:
+    """Whether a condition holds everywhere in a box; False if nowhere, None if the intervals cannot tell."""
+    above = name in STRICT or (strict and name == "K4")
+    values = list(CONDITIONS[name](box))
+    if any(value.b < 0 for value in values):
+        return False
+    return True if all(value.a > 0 if above else value.a >= 0 for value in values) else None
+
+
+def _wave(b: Box) -> Iterator[Interval]:
+    yield b.net
+    yield b.pull_top - b.n["rho"] * b.v**2
+
+
+def _k0(b: Box) -> Iterator[Interval]:
+    yield from _bernstein((b.pull_top, b.pull), (b.n["vessel"], b.reach), b.n["rho"])
+
+
+def _k1(b: Box) -> Iterator[Interval]:
+    yield b.pull - b.n["beta"] * b.n["rho"] * b.reach
+
+
+def _k2(b: Box) -> Iterator[Interval]:
+    yield b.n["beta"] - b.reach
+
+
+def _k3(b: Box) -> Iterator[Interval]:
+    yield 2 * b.n["beta"] * b.n["boundary"] * b.n["k_a"] - b.pull
+
+
+def _k4(b: Box) -> Iterator[Interval]:
+    yield b.v + b.n["vessel"]
+
+
+def _k5(b: Box) -> Iterator[Interval]:
+    """The entries of M - th/2 N: A does not depend on x, B and C are lines; A >= 0 and AC - B^2 >= 0."""
+    n, rho, lam = b.n, b.n["rho"], b.n["cross"]
+    corner = n["c"] + rho * (lam - b.rate) / 2
+    yield corner
+    side = [(q * (n["c"] - b.rate * rho) - rho * b.v * lam) / 2 for q in (n["vessel"], b.reach)]
+    stiff = (lam - b.rate) * b.net + b.jerk
+    far = [(mass * stiff + q * n["hanging"] * b.net) / 2 for mass, q in ((b.mass, n["vessel"]), (n["m"], b.reach))]
+    yield from _bernstein((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
+
+
+def _k6(b: Box) -> Iterator[Interval]:
+    n = b.n
+    yield 2 * n["boundary"] * n["k_a"] - b.pull / n["beta"] - b.rate * n["boundary"] * n["m"]
     if "k_s" in n:
-        yield "K6", n["k_s"] - rate, False
+        yield n["k_s"] - b.rate
+
+
+CONDITIONS = {"wave": _wave, "K0": _k0, "K1": _k1, "K2": _k2, "K3": _k3, "K4": _k4, "K5": _k5, "K6": _k6}
+"""What must not be negative anywhere; coefficients of polynomials in x, intervals in t."""
+STRICT = ("wave", "K0", "K3")
+"""Conditions that equality breaks."""
 
 
 def _bernstein(
     ends: tuple[Interval, Interval], line: tuple[Interval, Interval], factor: Interval
-) -> tuple[Interval, Interval, Interval]:
+) -> Iterator[Interval]:
     """Bernstein coefficients on [0, l] of (a line through ``ends``) - factor (a line through ``line``)^2."""
-    return (
-        ends[0] - factor * line[0] ** 2,
-        (ends[0] + ends[1]) / 2 - factor * line[0] * line[1],
-        ends[1] - factor * line[1] ** 2,
-    )
+    yield ends[0] - factor * line[0] ** 2
+    yield (ends[0] + ends[1]) / 2 - factor * line[0] * line[1]
+    yield ends[1] - factor * line[1] ** 2

@@ -56,7 +56,13 @@ def _(winch: Quintic, ctx: Any, t: Interval, middle: float) -> Motion:
 
 
 def _clipped(ctx: Any, q: Interval) -> Interval:
+    """The part inside [0, 1]: a slab's ends are rounded, and beyond the law's own ends the winch stands."""
     return ctx.mpf([max(q.a, ctx.mpf(0).a), min(q.b, ctx.mpf(1).b)])
+
+
+def _not_negative(ctx: Any, t: Interval) -> Interval:
+    """The part above 0, for the same reason."""
+    return ctx.mpf([max(t.a, ctx.mpf(0).a), max(t.b, ctx.mpf(0).b)])
 
 
 @_motion.register
@@ -71,12 +77,12 @@ def _(winch: Trapezoid, ctx: Any, t: Interval, middle: float) -> Motion:
         still = winch.start_length if middle <= winch.start else winch.end_length
         return ctx.mpf(still), ctx.mpf(0), ctx.mpf(0), ctx.mpf(0)
     if middle < float((winch.start + ramp).mid):
-        since = t - winch.start
+        since = _not_negative(ctx, t - winch.start)
         return winch.start_length + sign * hard * since**2 / 2, sign * hard * since, sign * hard, ctx.mpf(0)
     if middle < float((winch.start + ramp + cruise).mid):
         swept = hard * ramp**2 / 2 + hard * ramp * (t - winch.start - ramp)
         return winch.start_length + sign * swept, sign * hard * ramp, ctx.mpf(0), ctx.mpf(0)
-    left = finish - t
+    left = _not_negative(ctx, finish - t)
     return winch.end_length - sign * hard * left**2 / 2, sign * hard * left, -sign * hard, ctx.mpf(0)
 
 

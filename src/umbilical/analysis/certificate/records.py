@@ -9,7 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.certificate.loads import Loads
+from umbilical.analysis.certificate.setting import Loop
 from umbilical.errors import Problem
+from umbilical.scenario.scenario import Scenario
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,20 @@ class Weights(NamedTuple):
     boundary: float
 
 
+class Start(NamedTuple):
+    """Where the scenario starts from.
+
+    Attributes:
+        cable: V1 + V2, J.
+        error: u_a, m/s.
+        missed: D~ = D - D^, N.
+    """
+
+    cable: float
+    error: float
+    missed: float
+
+
 class Proof(NamedTuple):
     """What interval arithmetic found.
 
@@ -86,11 +102,11 @@ class Certificate:
     ``V' <= -(rates - spent) V + residual``; over an instant of ``jumps`` V may grow as written there.
 
     Attributes:
-        scenario: name of the scenario.
-        scenario_hash: its hash.
+        scenario: what was certified.
         inequalities: K0 to K6, each where it is tightest.
         margins: smallest margin in each slab over the larger side, by name, shape (slabs,).
         paper: the paper's own iota_1 ... iota_7, as printed, signs restored.
+        loop: constants of the ideal loop.
         weights: the numbers found by the search.
         edges: instants between which the rate is constant, s, shape (slabs + 1,).
         rates: proved rate th of V in each slab, 1/s, shape (slabs,); not a number where nothing can be certified.
@@ -98,21 +114,21 @@ class Certificate:
         fixed_length_rate: best rate with the winch stopped at its greatest length, 1/s, found but not proved.
         exact_rate: rate of V there by the exact eigenvalues of the ideal loop, 1/s.
         loads: suprema over the run of what acts from outside.
-        force_steps: instants, s, at which the force on the ROV jumps, and what that adds to the root of V, sqrt(J).
         spent: part del of the rate that pays for loads along the cable, 1/s.
         residual: Th, W; infinite when a load has no bound.
-        start: V at the start of the run, J.
+        cable_residual: what loads along the cable and the vessel leave of it, W.
+        start: where the scenario starts from.
         reach: bound of ``|y - e|/sqrt(V)`` at the middle and at the ROV, m/sqrt(J), the largest over the run.
         proof: the independent verification.
         cures: what would mend it, when it does not hold.
         limits: what it does not speak about.
     """
 
-    scenario: str
-    scenario_hash: str
+    scenario: Scenario
     inequalities: tuple[Inequality, ...]
     margins: Mapping[str, np.ndarray]
     paper: tuple[Inequality, ...]
+    loop: Loop
     weights: Weights
     edges: np.ndarray
     rates: np.ndarray
@@ -120,10 +136,10 @@ class Certificate:
     fixed_length_rate: float
     exact_rate: float
     loads: Loads
-    force_steps: tuple[tuple[float, float], ...]
     spent: float
     residual: float
-    start: float
+    cable_residual: float
+    start: Start
     reach: tuple[float, float]
     proof: Proof
     cures: tuple[Problem, ...]

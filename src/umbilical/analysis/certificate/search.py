@@ -14,11 +14,14 @@ from umbilical.analysis.certificate.setting import Loop, Motion
 CANDIDATES, ROUNDS = 9, 20
 
 
-def best_weights(loop: Loop, motion: Motion, *, vessel_moves: bool = False) -> tuple[float, float] | None:
+def best_weights(
+    loop: Loop, motion: Motion, *, vessel_moves: bool = False, enough: float = np.inf
+) -> tuple[float, float] | None:
     """lam/gam, 1/s, and lam x0/gam, m/s, with the largest smallest rate; None if K1, K2 and K4 leave no room.
 
     With a vessel in motion what it does to V is divided by ``v + lam x0/gam`` (section 7, vessel terms); then the
-    product of that and the rate is made largest, which makes the vessel's share of the bound smallest.
+    product of that and the rate is made largest, which makes the vessel's share of the bound smallest. The search
+    ends early at a score above ``enough``.
     """
     room = extent(loop, motion)
     widest = float(room.reach.min())
@@ -34,6 +37,8 @@ def best_weights(loop: Loop, motion: Motion, *, vessel_moves: bool = False) -> t
         at = np.unravel_index(np.argmax(score), score.shape)
         if score[at] > best:
             best, found = float(score[at]), (float(cross[at]), float(vessel[at]))
+        if best > enough:
+            break
         low, high = _window(share[(slice(None), *at)], low, high)
     return found if best > -np.inf else None
 
