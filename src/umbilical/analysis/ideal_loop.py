@@ -58,21 +58,19 @@ def cable_modes(loop: Loop, length: float) -> np.ndarray:
 
 
 def characteristic(loop: Loop, length: float, lam: complex) -> complex:
-    """``lam Y + beta Y_x`` at the ROV for the shape Y that vanishes at the vessel, over a factor without zeros."""
+    """``lam Y + beta Y_x`` at the ROV for the shape Y that vanishes at the vessel: an entire function of lam."""
     from scipy.special import ive, kve
 
     foot, top = (tension(s, loop.g, loop.m, loop.hanging) for s in (0.0, length))
     inertia = np.sqrt(loop.rho * lam * lam + loop.c * lam + 0j)
-    rise = loop.hanging * loop.g
-    wave = inertia / np.sqrt(foot)  # Y_s = wave * dY/dz
+    rise, wave = loop.hanging * loop.g, inertia / np.sqrt(foot)  # Y_s = wave dY/dz
     if rise == 0.0:
-        decay = np.exp(-2.0 * wave * length)
-        return complex(lam * (1.0 - decay) + loop.beta * wave * (1.0 + decay))
+        return complex(lam * np.sinh(wave * length) / wave + loop.beta * np.cosh(wave * length))
     z, z_top = (2.0 * inertia * np.sqrt(pull) / rise for pull in (foot, top))
-    # The scaled functions leave out exp(|Re z|) and exp(-z); here all is over exp(z_top - z), which has no zeros.
-    echo, back = np.exp(z + z.real - 2.0 * z_top), np.exp(-1j * z_top.imag)
-    shape = ive(0, z) * kve(0, z_top) * echo - kve(0, z) * ive(0, z_top) * back
-    slope = ive(1, z) * kve(0, z_top) * echo + kve(1, z) * ive(0, z_top) * back
+    # The scaled functions leave out exp(|Re z|) of I and exp(-z) of K, which are huge; their products are not.
+    up, down = np.exp(z.real - z_top), np.exp(z_top.real - z)
+    shape = ive(0, z) * kve(0, z_top) * up - kve(0, z) * ive(0, z_top) * down
+    slope = ive(1, z) * kve(0, z_top) * up + kve(1, z) * ive(0, z_top) * down
     return complex(lam * shape - loop.beta * wave * slope)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option
 
 from umbilical.cli.running import load_changed
-from umbilical.cli.speech import say, say_json, shown_unit, table
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, shown_unit, table
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.quantities import CERTIFICATE
 
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from umbilical.scenario import Scenario
     from umbilical.studies.audit import Audit
 
-DOES_NOT_HOLD = 7
 SCATTER = 1e-3
 """By how much sampling and grid may lift V of an ideal run over its bound before the bound counts as broken."""
 

@@ -47,7 +47,7 @@ def error_bound(loop: Loop, t: np.ndarray, start: Start, loads: Loads) -> np.nda
         fade = np.exp(-2.0 * loop.k_a / loop.m * t)  # all of k_a: loop.k_a is the half that is left to V
         return fade * abs(start.error) + (1.0 - fade) * loads.force / (2.0 * loop.k_a)
     of_error, of_missed = responses(loop, t)
-    area = np.concatenate([[0.0], np.cumsum(0.5 * (abs(of_missed[1:]) + abs(of_missed[:-1])) * np.diff(t))])
+    area = np.concatenate([[0.0], np.cumsum(np.maximum(abs(of_missed[1:]), abs(of_missed[:-1])) * np.diff(t))])
     bound = abs(of_error * start.error + of_missed * start.missed) + area * loads.force_rate
     for instant, size in loads.force_jumps:
         after = t >= instant

@@ -45,8 +45,10 @@ def _(winch: Quintic, ctx: Any, t: Interval, middle: float) -> Motion:
         return ctx.mpf(still), ctx.mpf(0), ctx.mpf(0), ctx.mpf(0)
     way, time = ctx.mpf(winch.end_length) - winch.start_length, ctx.mpf(winch.duration)
     q = _clipped(ctx, (t - winch.start) / time)
-    p = 1 - q  # both factors of the derivatives are kept, so that intervals stay narrow at both ends
-    length = winch.start_length + way * q**3 * (1 + 3 * p + 6 * p**2)
+    p = 1 - q  # the law is odd about its middle; written from the nearer end, intervals stay narrow at both
+    first = middle < winch.start + 0.5 * winch.duration
+    from_start = winch.start_length + way * q**3 * (1 + 3 * p + 6 * p**2)
+    length = from_start if first else winch.end_length - way * p**3 * (1 + 3 * q + 6 * q**2)
     return (
         length,
         way / time * 30 * q**2 * p**2,
