@@ -86,7 +86,7 @@ def test_the_ends_of_the_cable_decide() -> None:
     assert found is not None
     formula = rates(loop, motion, *found)
     for slab in range(0, motion.t.shape[0], 6):
-        at = tuple(float(part[slab, 0]) for part in motion[1:])
+        at = float(motion.l[slab, 0]), float(motion.v[slab, 0]), float(motion.a[slab, 0]), float(motion.jerk[slab, 0])
         pairs = [matrices(loop, *found, x, at) for x in np.linspace(0.0, at[0], 200)]
         lowest = min(2.0 * eigh(m, n, eigvals_only=True)[0] for n, m in pairs)
         assert lowest == pytest.approx(formula[slab, 0], rel=1e-9)

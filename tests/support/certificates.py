@@ -11,8 +11,8 @@ from umbilical import Scenario
 from umbilical.analysis.certificate.setting import Loop
 
 GAIN = "control.law.slope_gain"
-FREE = {"environment.payload_force": []}
-HALF_SINE = {"initial": {"shape": "sine", "amplitude": 1.0}}
+FREE: dict[str, Any] = {"environment.payload_force": []}
+HALF_SINE: dict[str, Any] = {"initial": {"shape": "sine", "amplitude": 1.0}}
 
 
 def fixed(slope_gain: float, length: float = 500.0, **overrides: Any) -> Scenario:

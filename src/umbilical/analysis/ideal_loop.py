@@ -8,6 +8,7 @@ shape is ``I0(z) K0(z_top) - K0(z) I0(z_top)`` with ``z = 2 sqrt((rho lam^2 + c 
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from umbilical.analysis.certificate.setting import Loop
 from umbilical.relations.formulas import tension
@@ -29,11 +30,11 @@ def energy_rate(loop: Loop, length: float) -> float:
     return -2.0 * float(max(slowest, highest_modes_real_part(loop, length)))
 
 
-def law_modes(loop: Loop) -> np.ndarray:
+def law_modes(loop: Loop) -> NDArray[np.complex128]:
     """Eigenvalues of u_a and D~, 1/s."""
     k_s = 0.0 if loop.k_s is None else loop.k_s
     k_a = loop.k_a if loop.k_s is not None else 2.0 * loop.k_a
-    modes = np.roots([loop.m, k_a + loop.m * k_s, k_s * (k_a + loop.vs)])
+    modes = np.roots([loop.m, k_a + loop.m * k_s, k_s * (k_a + loop.vs)]).astype(complex)
     return modes if loop.k_s is not None else modes[np.abs(modes) > 0.0]
 
 
@@ -48,7 +49,7 @@ def highest_modes_real_part(loop: Loop, length: float) -> float:
         return float(np.log(abs((foot - loop.beta) / (foot + loop.beta))) / (2.0 * travel) - loop.c / (2.0 * loop.rho))
 
 
-def cable_modes(loop: Loop, length: float) -> np.ndarray:
+def cable_modes(loop: Loop, length: float) -> NDArray[np.complex128]:
     """The slowest eigenvalues with ``u_a = 0``, 1/s, from the exact equation; none below the real axis."""
     coarse = np.linalg.eigvals(_matrix(loop, length))
     top = 0.3 * NODES / _travel(loop, length)  # beyond it the matrix has too few points for a wave

@@ -14,6 +14,7 @@ import numpy as np
 from umbilical.analysis.certificate.records import Weights
 from umbilical.plant import signals, winch
 from umbilical.relations.formulas import tension
+from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 
@@ -75,8 +76,7 @@ def cable_function(scenario: Scenario, run: Mapping[str, Array], weights: Weight
 
 def boundary_function(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> Array:
     """V3 with gam = 1 at every stored sample, J, shape (time,); from the true u_a, not the observer's."""
-    law, observer = scenario.control.law, scenario.control.disturbance_observer
-    error = np.asarray(run["tip_velocity"]) + law.slope_gain * np.asarray(run["tip_slope"])  # pyright: ignore[reportAttributeAccessIssue]
+    observer, error = scenario.control.disturbance_observer, _error(scenario, run)
     value = scenario.payload.mass * error**2
     if observer is not None and observer.enabled:
         missed = np.asarray(run["disturbance"]) - np.asarray(run["disturbance_estimate"])
@@ -122,16 +122,24 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
 def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
     """Every term of dV3/dt in the ideal loop with its disturbance observer, W, each of shape (time,)."""
     law, observer = scenario.control.law, scenario.control.disturbance_observer
+    assert isinstance(law, BoundaryLaw)
     assert observer is not None
     eta, k_s, vs = weights.boundary, observer.gain, observer.coupling
-    error = np.asarray(run["tip_velocity"]) + law.slope_gain * np.asarray(run["tip_slope"])  # pyright: ignore[reportAttributeAccessIssue]
+    error = _error(scenario, run)
     missed = np.asarray(run["disturbance"]) - np.asarray(run["disturbance_estimate"])
     force_rate = signals.derivative(scenario.environment.payload_force, np.asarray(run["time"]))
     return {
-        "boundary damping": -eta * law.damping_gain * error**2,  # pyright: ignore[reportAttributeAccessIssue]
+        "boundary damping": -eta * law.damping_gain * error**2,
         "disturbance estimate": -eta / vs * missed**2,
         "disturbance rate": eta / (k_s * vs) * missed * force_rate,
     }
+
+
+def _error(scenario: Scenario, run: Mapping[str, Array]) -> Array:
+    """The true u_a, m/s."""
+    law = scenario.control.law
+    assert isinstance(law, BoundaryLaw)
+    return np.asarray(run["tip_velocity"]) + law.slope_gain * np.asarray(run["tip_slope"])
 
 
 def loads_along(scenario: Scenario, time: Array, sigma: Array) -> Array:
