@@ -123,7 +123,7 @@ def test_response_of_the_law() -> None:
 
 
 def read(run: umbilical.Run) -> dict[str, np.ndarray]:
-    return {name: run[name].values for name in ("sigma", "displacement", "velocity", "length", "payout_acceleration")}
+    return {name: run[name].values for name in ("sigma", "slope", "velocity", "length", "payout_acceleration")}
 
 
 LOADED: dict[str, dict[str, Any]] = {

@@ -181,15 +181,16 @@ def _bounds(certificate: Certificate) -> dict[str, float]:
 def _audit_report(audit: Audit) -> Iterator[str]:
     """What the two simulations made of V."""
     yield ""
-    rows = [("", "V at the start, J", "at the end, J", "largest over its bound", "ended")]
+    rows = [("V, J", "at the start", "at the end", "its bound there", "largest over its bound", "ended")]
+    ends = f"{audit.bound[-1]:.4g}"
     rows += [
-        (name, f"{v[0]:.4g}", f"{v[-1]:.4g}", f"{ratio:.4g}", run.status.name)
-        for name, v, ratio, run in (
-            ("ideal loop", audit.ideal, audit.excess, audit.ideal_run),
-            ("real loop", audit.real, audit.real_excess, audit.real_run),
+        (name, f"{v[0]:.4g}", f"{v[-1]:.4g}", limit, f"{ratio:.4g}", run.status.name)
+        for name, v, limit, ratio, run in (
+            ("ideal loop", audit.ideal, ends, audit.excess, audit.ideal_run),
+            ("real loop", audit.real, "-", audit.real_excess, audit.real_run),
         )
     ]
-    yield table(rows, right=[1, 2, 3])
+    yield table(rows, right=[1, 2, 3, 4])
     yield f"  the ideal loop's V is the integral of its exact rate within {audit.identity:.1e} of its largest value"
 
 

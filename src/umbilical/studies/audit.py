@@ -16,7 +16,7 @@ from umbilical.scenario.scenario import Scenario
 INTERVAL = 0.01
 """Time between the samples of V, s: short against the loop's own time m/k_a."""
 _READ = (
-    "time", "sigma", "displacement", "velocity", "length", "payout_speed", "payout_acceleration",
+    "time", "sigma", "slope", "velocity", "length", "payout_speed", "payout_acceleration",
     "vessel_slope", "tip_velocity", "tip_slope", "disturbance", "disturbance_estimate",
 )  # fmt: skip
 

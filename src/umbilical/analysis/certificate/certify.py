@@ -61,7 +61,7 @@ def certify(scenario: Scenario) -> Certificate:
     proved, proof = _proved(loop, scenario, edges, wanted, weights, moves)
     rate = float(proved.min())
     spent, residual, cable_residual = residual_of(loop, motion, weights, rate, loads)
-    stated = conditions(loop, motion, weights, float(np.nan_to_num(proved).max()))
+    stated = conditions(loop, motion, weights, float(np.nan_to_num(proved).max()), moves)
     return Certificate(
         scenario=scenario,
         inequalities=tuple(tightest(condition, motion) for condition in stated),

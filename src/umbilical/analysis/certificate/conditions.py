@@ -106,18 +106,25 @@ class Condition(NamedTuple):
     strict: bool
 
 
-def conditions(loop: Loop, motion: Motion, weights: Weights, rate: float) -> tuple[Condition, ...]:
-    """K0 to K6 at every sample; ``rate`` is the largest th of the run, which K6 must carry."""
+def conditions(
+    loop: Loop, motion: Motion, weights: Weights, rate: float, vessel_moves: bool = False
+) -> tuple[Condition, ...]:
+    """K0 to K6 at every sample; ``rate`` is the largest th of the run, which K6 must carry.
+
+    K4 must hold strictly where the vessel moves.
+    """
     shape = motion.t.shape
     return tuple(
         Condition(
             name, text, np.broadcast_to(left, shape), np.broadcast_to(right, shape), unit, sigma, "<=" not in text
         )
-        for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, rate)
+        for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, rate, vessel_moves)
     )
 
 
-def _conditions(loop: Loop, motion: Motion, weights: Weights, rate: float) -> Iterator[tuple[Any, ...]]:
+def _conditions(
+    loop: Loop, motion: Motion, weights: Weights, rate: float, vessel_moves: bool
+) -> Iterator[tuple[Any, ...]]:
     lam, offset, eta = weights
     reach, speed_squared = offset + lam * motion.l, _wave_speed_squared(loop, motion)
     top_squared = speed_squared + loop.hanging / loop.rho * motion.l * (loop.g - motion.a)
@@ -130,7 +137,7 @@ def _conditions(loop: Loop, motion: Motion, weights: Weights, rate: float) -> It
     yield "K1", "lam (l + x0)/gam <= T_l/(beta rho)", reach, speed_squared / loop.beta, "m/s", 1.0
     yield "K2", "lam (l + x0)/gam <= beta", reach, loop.beta, "m/s", 1.0
     yield "K3", "T_l/(2 beta) < eta k_a/gam", pull / (2.0 * loop.beta), eta * loop.k_a, "N s/m", 1.0
-    yield "K4", "-v <= lam x0/gam", 0.0 - motion.v, offset, "m/s", 0.0
+    yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - motion.v, offset, "m/s", 0.0
     yield "K5", "0 < th with M - th/2 N >= 0", 0.0, ends[int(tighter)], "1/s", tighter
     yield "K6", "th <= 2 (eta k_a - gam T_l/(2 beta))/(eta m)", rate, carried, "1/s", 1.0
     if loop.k_s is not None:

@@ -51,20 +51,20 @@ def read_fields(scenario: Scenario, run: Mapping[str, Array]) -> Fields:
 
     Args:
         scenario: gives masses and gravity.
-        run: arrays ``sigma`` (nodes,), ``displacement`` and ``velocity`` (time, nodes), ``length`` and
+        run: arrays ``sigma`` (nodes,), ``slope`` and ``velocity`` (time, nodes), ``length`` and
             ``payout_acceleration`` (time,).
     """
     from scipy.interpolate import CubicSpline
 
     sigma, first = np.unique(np.asarray(run["sigma"]), return_index=True)
-    y, w = (CubicSpline(sigma, np.asarray(run[name])[:, first], axis=1) for name in ("displacement", "velocity"))
+    p, w = (CubicSpline(sigma, np.asarray(run[name])[:, first], axis=1) for name in ("slope", "velocity"))
     half = np.diff(sigma) / 2.0
     points = (sigma[:-1, None] + half[:, None] * (1.0 + _POINTS)).ravel()
     share = (half[:, None] * _SHARES).ravel()
     length = np.asarray(run["length"])[:, None]
     net = scenario.environment.gravity - np.asarray(run["payout_acceleration"])[:, None]
     pull = tension((1.0 - points) * length, net, scenario.payload.mass, scenario.cable.hanging_density)
-    return Fields(points * length, share * length, pull, y(points, 1) / length, w(points), net)
+    return Fields(points * length, share * length, pull, p(points), w(points), net)
 
 
 def cable_function(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> Array:
