@@ -16,10 +16,12 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from umbilical.admission import load, preset_names
+    from umbilical.analysis.certificate import Certificate, certify
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.engine.simulate import simulate
     from umbilical.plots import (
         plot_cable,
+        plot_certificate,
         plot_energy,
         plot_motors,
         plot_observers,
@@ -34,15 +36,18 @@ __version__ = "0.1.0"
 
 # Imported when first used, so that `import umbilical` costs milliseconds and compiles nothing.
 _HOMES = {
+    "Certificate": "umbilical.analysis.certificate",
     "Command": "umbilical.control.contract",
     "Controller": "umbilical.control.contract",
     "Measurement": "umbilical.control.contract",
     "Run": "umbilical.run",
     "Scenario": "umbilical.scenario",
     "Status": "umbilical.run",
+    "certify": "umbilical.analysis.certificate",
     "load": "umbilical.admission",
     "open_run": "umbilical.run",
     "plot_cable": "umbilical.plots",
+    "plot_certificate": "umbilical.plots",
     "plot_energy": "umbilical.plots",
     "plot_motors": "umbilical.plots",
     "plot_observers": "umbilical.plots",
@@ -54,15 +59,18 @@ _HOMES = {
 }
 
 __all__ = [
+    "Certificate",
     "Command",
     "Controller",
     "Measurement",
     "Run",
     "Scenario",
     "Status",
+    "certify",
     "load",
     "open_run",
     "plot_cable",
+    "plot_certificate",
     "plot_energy",
     "plot_motors",
     "plot_observers",

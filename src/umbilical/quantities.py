@@ -187,11 +187,24 @@ METRICS: dict[str, Quantity] = {
     "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of largest energy and gross work"),
     "grid_loss":               Quantity("1", "", "energy the grid took, over the larger of largest energy and gross work"),
 }
+
+CERTIFICATE: dict[str, Quantity] = {
+    "rate":                    Quantity("1/s", r"\vartheta", "rate at which V is proved to decay, at least; amplitudes decay at half of it", "(36)"),
+    "fixed_length_rate":       Quantity("1/s", r"\vartheta", "best rate with the winch stopped at its greatest length", "(36)"),
+    "exact_rate":              Quantity("1/s", "", "rate of V by the exact eigenvalues of the ideal loop, winch stopped at its greatest length"),
+    "cross":                   Quantity("1/s", r"\lambda/\gamma", "weight of V2 over that of V1", "(33)"),
+    "vessel":                  Quantity("m/s", r"\lambda x_0/\gamma", "shift of the weight x in V2, times its weight"),
+    "boundary":                Quantity("1", r"\eta/\gamma", "weight of V3 over that of V1", "(34)"),
+    "lyapunov":                Quantity("J", "V", "Lyapunov function, gamma = 1", "(31)"),
+    "start":                   Quantity("J", "V(0)", "Lyapunov function at the start, from the scenario"),
+    "spent":                   Quantity("1/s", r"\delta", "part of the rate that pays for loads along the cable"),
+    "residual":                Quantity("W", r"\Theta", "what bounded loads leave: V' <= -(rate - spent) V + residual", "(36)"),
+}
 # fmt: on
 
 
 def label(name: str, quantity: Quantity | None = None) -> str:
     """Axis label of a channel, e.g. ``ROV displacement y(l,t) $x_1$ [m]``."""
-    q = quantity or CHANNELS.get(name) or METRICS.get(name) or PARAMETERS[name]
+    q = quantity or CHANNELS.get(name) or METRICS.get(name) or CERTIFICATE.get(name) or PARAMETERS[name]
     unit = f" [{q.unit}]" if q.unit not in ("", "1") else ""
     return f"{q.meaning}{unit}"

@@ -11,15 +11,18 @@ import pytest
 import umbilical
 
 NAMES = {
+    "Certificate",
     "Command",
     "Controller",
     "Measurement",
     "Run",
     "Scenario",
     "Status",
+    "certify",
     "load",
     "open_run",
     "plot_cable",
+    "plot_certificate",
     "plot_energy",
     "plot_motors",
     "plot_observers",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scenario import keys_by_meaning
 from writing import code, page, table
 
-from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, Quantity
+from umbilical.quantities import CERTIFICATE, CHANNELS, METRICS, PARAMETERS, Quantity
 from umbilical.run import SECOND_DIMENSION
 
 
@@ -32,6 +32,9 @@ def notation() -> str:
         "## Metrics: single numbers of a run",
         "Peaks and root mean squares are taken over every control sample, not over the stored ones.",
         table(("name", "unit", "meaning"), ((name, q.unit, q.meaning) for name, q in metrics)),
+        "## Certificate: what `umbilical certify` says",
+        "Weights are over `gamma`, which is 1, so V is an energy; see [certificates.md](certificates.md).",
+        table(head, (words(f"`{name}`", q) for name, q in CERTIFICATE.items())),
     )
 
 

@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, doctoring, drawing, listing, reading, running, verifying
+from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, verifying
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -36,6 +36,7 @@ for command in (
     reading.compare,
     reading.export,
     drawing.plot,
+    certifying.certify,
     listing.presets,
     listing.schema,
     doctoring.doctor,
@@ -65,6 +66,7 @@ def umbilical(
       umbilical presets --copy paper my.toml
       umbilical show my.toml
       umbilical compare paper.nc other.nc
+      umbilical certify my.toml
     """
 
 

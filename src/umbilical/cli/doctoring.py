@@ -14,7 +14,7 @@ from typer import Option
 
 from umbilical.cli.speech import say, say_json, table
 
-NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer")
+NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
 PARTNERS = ("control", "gymnasium", "optuna", "dask", "moordyn", "wavespectra")
 
 

@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Option
 
-from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table
 from umbilical.cli.targets import check_target
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification
 
-NOT_VERIFIED = 7
 FILES = ("verification.md", "verification.json", "convergence.svg")
 
 
@@ -47,7 +46,7 @@ def verify(
         say_json(found.document() | {"files": files})
     else:
         say("\n".join([_text(found), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0 if found.holds else NOT_VERIFIED
+    return 0 if found.holds else DOES_NOT_HOLD
 
 
 def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:

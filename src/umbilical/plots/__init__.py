@@ -10,6 +10,7 @@ opens a window, changes a global setting, or keeps a figure alive.
 """
 
 from umbilical.plots.cable import plot_cable, plot_positions
+from umbilical.plots.certificate import plot_certificate
 from umbilical.plots.convergence import plot_convergence
 from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
@@ -35,6 +36,7 @@ __all__ = [
     "plot_all_motors",
     "plot_all_observers",
     "plot_cable",
+    "plot_certificate",
     "plot_convergence",
     "plot_energy",
     "plot_motors",

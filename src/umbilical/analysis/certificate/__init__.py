@@ -1,0 +1,22 @@
+"""Certificates: how fast the ideal loop is proved to calm down over a whole run, and with which margins.
+
+The theory is docs/certificates.md. ``search.py`` finds numbers, ``proof.py`` verifies them without it.
+"""
+
+from umbilical.analysis.certificate.bounds import bound, displacement_bound, lyapunov_of
+from umbilical.analysis.certificate.cable_bound import cable_bound
+from umbilical.analysis.certificate.certify import certify
+from umbilical.analysis.certificate.records import Certificate, Inequality, Proof, Start, Weights
+
+__all__ = [
+    "Certificate",
+    "Inequality",
+    "Proof",
+    "Start",
+    "Weights",
+    "bound",
+    "cable_bound",
+    "certify",
+    "displacement_bound",
+    "lyapunov_of",
+]

@@ -1,0 +1,159 @@
+"""What a certificate says in metres: V at the start, its bound over the run, and the displacement it allows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.analysis.certificate.loads import Loads
+from umbilical.analysis.certificate.records import Certificate, Start, Weights
+from umbilical.analysis.certificate.setting import Loop, Motion
+from umbilical.plant import signals, winch
+from umbilical.plant.signals import spline
+from umbilical.relations.formulas import tension
+from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
+from umbilical.scenario.scenario import Scenario
+
+POINTS = 400
+"""Intervals along the cable for integrals."""
+
+
+class Residual(NamedTuple):
+    """``V' <= -(th - spent) V + power``: spent in 1/s, power (the Th of the paper) in W; ``cable``: without V3, W."""
+
+    spent: float
+    power: float
+    cable: float
+
+
+def residual_of(loop: Loop, motion: Motion, weights: Weights, rate: float, loads: Loads) -> Residual:
+    """What bounded loads leave of the decay.
+
+    Half the rate pays for loads along the cable, if there are any: that makes their share of the final bound
+    smallest. D' is that of the force on the ROV alone, since an ideal thruster delivers what is commanded.
+    """
+    spent = max(0.5 * rate, 0.0) if loads.cable else 0.0
+    of_cable = 0.0
+    if loads.cable:
+        of_cable = loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
+    of_cable += _of_vessel(loop, motion, weights, loads.vessel_velocity)
+    if loop.k_s is None:
+        of_law = weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
+    else:
+        of_law = weights.boundary * loads.force_rate**2 / (2.0 * loop.k_s**2 * loop.vs)
+    return Residual(spent, of_cable + of_law, of_cable)
+
+
+def _of_vessel(loop: Loop, motion: Motion, weights: Weights, velocity: float) -> float:
+    if velocity == 0.0:
+        return 0.0
+    pays = motion.v + weights.vessel
+    if not pays.min() > 0.0:
+        return float("inf")
+    pull = tension(motion.l, loop.g - motion.a, loop.m, loop.hanging) - loop.rho * motion.v**2
+    return float((pull / (2.0 * pays) + 0.5 * loop.rho * (motion.v - weights.vessel)).max()) * velocity**2
+
+
+def start_of(loop: Loop, scenario: Scenario) -> Start:
+    """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
+    motion = winch.evaluate(scenario.winch, 0.0)
+    length, net = float(motion.length), loop.g - float(motion.acceleration)
+    x = np.linspace(0.0, length, 16 * POINTS + 1)
+    slope = _initial_slope(scenario, length, net)(x)
+    strain = 0.5 * np.trapezoid(tension(length - x, net, loop.m, loop.hanging) * slope**2, x)
+    force = float(signals.evaluate(scenario.environment.payload_force, 0.0))
+    return Start(float(strain), float(loop.beta * slope[-1]), force)
+
+
+def lyapunov_of(loop: Loop, weights: Weights, start: Start) -> float:
+    """V at the start, J."""
+    of_force = 0.0 if loop.k_s is None else start.missed**2 / (loop.k_s * loop.vs)
+    return start.cable + 0.5 * weights.boundary * (loop.m * start.error**2 + of_force)
+
+
+def _initial_slope(scenario: Scenario, length: float, net: float) -> Callable[[np.ndarray], np.ndarray]:
+    """y_x of the initial shape as a function of x."""
+    shape, mass, hanging = scenario.initial, scenario.payload.mass, scenario.cable.hanging_density
+    match shape:
+        case SineShape():
+            wave = shape.half_waves * np.pi / length
+            return lambda x: shape.amplitude * wave * np.cos(wave * x)
+        case GaussianShape():
+            return lambda x: _gaussian_slope(shape, length - x)
+        case StaticShape():
+            return lambda x: shape.force / tension(length - x, net, mass, hanging)
+        case TableShape():
+            return lambda x: np.asarray(spline(shape.positions, shape.displacements)(x / length, 1)) / length
+        case _:
+            return np.zeros_like
+
+
+def _gaussian_slope(shape: GaussianShape, above: np.ndarray) -> np.ndarray:
+    q = (above - shape.distance) / shape.width
+    return 2.0 * shape.amplitude * q * np.exp(-q * q) / shape.width
+
+
+def reach_of(loop: Loop, motion: Motion, weights: Weights, sigma: float) -> float:
+    """Bound of ``|y - e|/sqrt(V)`` at ``x = sigma l``, m/sqrt(J), the largest over the run.
+
+    ``V1 + V2 >= 1/2 int (T - rho Q^2) p^2``, what is left when W is chosen worst, and by Cauchy and Schwarz
+    ``(y - e)^2 <= int p^2 (T - rho Q^2) int 1/(T - rho Q^2)``. The integrand is convex, so the trapezoid rule
+    errs upward.
+    """
+    share = np.linspace(0.0, sigma, POINTS + 1)
+    length = motion.l.ravel()[:, None]
+    x = share * length
+    left = tension(length - x, loop.g - motion.a.ravel()[:, None], loop.m, loop.hanging)
+    left = left - loop.rho * (weights.vessel + weights.cross * x) ** 2
+    if not left.min() > 0.0:
+        return float("inf")
+    return float(np.sqrt(2.0 * np.trapezoid(1.0 / left, x, axis=1).max()))
+
+
+def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -> np.ndarray:
+    """Certified bound of V at increasing instants of the run, J, shape of ``t``.
+
+    Between two instants V decays at the slab's rate towards the residual. At a jump of the tension V may grow by
+    ``certificate.stretch``, at one of the force on the ROV its root by ``sqrt(eta/(2 k_s vs)) |jump|``.
+
+    Args:
+        certificate: from :func:`umbilical.certify`.
+        t: instants, s, increasing, shape (samples,).
+        start: V at the start, J; that of the scenario if left out.
+
+    >>> import umbilical
+    >>> certificate = umbilical.certify(umbilical.load("ringdown", {"control.law.slope_gain": 5.0}))
+    >>> bound(certificate, np.array([0.0, 60.0]), start=1.0).round(2).tolist()
+    [1.0, 0.47]
+    """
+    loop, instants = certificate.loop, np.asarray(t, dtype=np.float64)
+    value, now = lyapunov_of(loop, certificate.weights, certificate.start) if start is None else start, 0.0
+    scale = 0.0 if loop.k_s is None else float(np.sqrt(certificate.weights.boundary / (2.0 * loop.k_s * loop.vs)))
+    steps = {at: scale * size for at, size in certificate.loads.force_jumps}
+    marks, found = np.unique(np.concatenate([instants, certificate.edges, list(steps)])), {}
+    stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
+    for mark in marks.tolist():
+        value = _advance(certificate, value, now, mark, certificate.residual)
+        if mark > 0.0:  # what happens at the start is in the start
+            value = (np.sqrt(value * stretch.get(mark, 1.0)) + steps.get(mark, 0.0)) ** 2
+        found[mark], now = value, mark
+    return np.array([found[instant] for instant in instants.tolist()])
+
+
+def _advance(certificate: Certificate, value: float, begin: float, end: float, power: float) -> float:
+    """V after some time within one slab: the solution of ``V' = -(th - spent) V + power``."""
+    slab = int(np.clip(np.searchsorted(certificate.edges, begin, side="right") - 1, 0, certificate.rates.size - 1))
+    rate, dt = float(certificate.rates[slab]) - certificate.spent, end - begin
+    gained = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
+    return value * float(np.exp(-rate * dt)) + (power * gained if power else 0.0)
+
+
+def displacement_bound(certificate: Certificate, v_bound: float) -> tuple[float, float]:
+    """Bound of |y| at the middle of the cable and at the ROV, m, where V, or V1 + V2, is at most ``v_bound``, J.
+
+    The bound grows from the vessel to the ROV, so the second one holds for the whole cable.
+    """
+    middle, tip = (reach * float(np.sqrt(v_bound)) + certificate.loads.vessel for reach in certificate.reach)
+    return middle, tip

@@ -1,0 +1,147 @@
+"""How large can it get? Bounds of everything that acts from outside, over the whole run, term by term.
+
+A sum is bounded by the sum of its terms' bounds: never too small, and exact for one term.
+"""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.plant.signals import spline
+from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
+from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term
+
+_FADE_SLOPE = 1.875  # steepest slope of the quintic fade, at its middle
+
+
+class Loads(NamedTuple):
+    """Bounds over the run.
+
+    Attributes:
+        force: sup |d|, N.
+        force_rate: sup |d'| between its jumps, N/s.
+        force_jumps: instants, s, at which d jumps, and by how much at most, N.
+        cable: sup int f^2 dx, N2/m.
+        vessel: sup |e|, m.
+        vessel_velocity: sup |e'|, m/s.
+    """
+
+    force: float
+    force_rate: float
+    force_jumps: tuple[tuple[float, float], ...]
+    cable: float
+    vessel: float
+    vessel_velocity: float
+
+
+def loads_of(environment: Environment, longest: float) -> Loads:
+    """Bounds of a scenario's loads.
+
+    Args:
+        environment: forces and vessel.
+        longest: greatest length of the cable in the run, m.
+    """
+    motion = environment.vessel_motion
+    velocity = rate(motion) + (_FADE_SLOPE * size(motion) / environment.vessel_ramp if environment.vessel_ramp else 0.0)
+    along = sum(size(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
+    force = environment.payload_force
+    return Loads(size(force), rate(force), jumps(force), longest * along**2, size(motion), velocity)
+
+
+def size(signal: Signal) -> float:
+    """Bound of |signal|, in its unit.
+
+    >>> size((Constant(kind="constant", value=-2.0), Sine(kind="sine", amplitude=3.0, frequency=2.0)))
+    5.0
+    """
+    return float(sum(_size(term) for term in signal))
+
+
+def rate(signal: Signal) -> float:
+    """Bound of |d signal/dt| between its jumps, in its unit per second; infinite for a bell with a cusp."""
+    return float(sum(_rate(term) for term in signal))
+
+
+def jumps(signal: Signal) -> tuple[tuple[float, float], ...]:
+    """Instants at which the signal jumps, increasing, s, each with a bound of how far, in its unit."""
+    found: dict[float, float] = {}
+    for term in signal:
+        instants = {Step: ("time",), Pulse: ("start", "end")}.get(type(term), ())
+        for name in instants:
+            t = getattr(term, name)
+            found[t] = found.get(t, 0.0) + abs(getattr(term, "value", 0.0))
+    return tuple(sorted(found.items()))
+
+
+def profile_norm(profile: Profile) -> float:
+    """Bound of the root of ``int profile^2 dsigma`` over the cable."""
+    match profile:
+        case SineProfile():
+            return float(np.sqrt(0.5))
+        case GaussianProfile():
+            return float(np.sqrt(min(1.0, profile.width * np.sqrt(pi / 2.0))))
+        case TableProfile():
+            return max(map(abs, profile.values))
+        case _:
+            return 1.0
+
+
+@singledispatch
+def _size(term: Term) -> float:
+    raise TypeError(f"not a term of a signal: {term!r}")
+
+
+@_size.register(Constant)
+@_size.register(Step)
+@_size.register(Pulse)
+def _(term: Constant | Step | Pulse) -> float:
+    return abs(term.value)
+
+
+@_size.register(Sine)
+@_size.register(Bell)
+def _(term: Sine | Bell) -> float:
+    return abs(term.amplitude)
+
+
+@_size.register
+def _(term: Table) -> float:
+    return float(np.abs(_extremes(term, 0)).max()) if term.interpolation == "smooth" else max(map(abs, term.values))
+
+
+@singledispatch
+def _rate(term: Term) -> float:
+    return 0.0  # constants, and steps and pulses between their jumps
+
+
+@_rate.register
+def _(term: Sine) -> float:
+    return abs(term.amplitude * term.frequency)
+
+
+@_rate.register
+def _(term: Bell) -> float:
+    """With u = |q|^(2b) the slope is ``2b A/w u^(1 - 1/(2b))/(1 + u)^2``, largest at u = (2b - 1)/(2b + 1)."""
+    power = 2.0 * term.exponent
+    if power < 1.0:
+        return float("inf")
+    u = (power - 1.0) / (power + 1.0)
+    return abs(term.amplitude) / term.width * power * u ** (1.0 - 1.0 / power) / (1.0 + u) ** 2
+
+
+@_rate.register
+def _(term: Table) -> float:
+    if term.interpolation == "linear":
+        return float(np.abs(np.diff(term.values) / np.diff(term.times)).max())
+    return float(np.abs(_extremes(term, 1)).max())
+
+
+def _extremes(term: Table, order: int) -> np.ndarray:
+    """Values of a spline's derivative at its knots and wherever that derivative is stationary."""
+    curve = spline(term.times, term.values)
+    stationary = curve.derivative(order + 1).roots(extrapolate=False)
+    return curve(np.append(stationary[np.isfinite(stationary)], term.times), order)

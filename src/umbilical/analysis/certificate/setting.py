@@ -1,0 +1,115 @@
+"""What a scenario says to a certificate: constants of the ideal loop, and the winch, slab by slab of time."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.errors import Problem, ScenarioError
+from umbilical.plant import winch as laws
+from umbilical.scenario.control import BoundaryLaw
+from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.winch import ConstantLength, Cosine, Winch
+
+SLABS = 48
+"""Slabs of time in a run; more where a cosine law turns often."""
+SAMPLES = 9
+"""Instants looked at in each slab, its ends included."""
+_SLABS_PER_TURN, _MOST_SLABS = 12, 600
+
+
+class Loop(NamedTuple):
+    """Constants of cable, ROV and ideal loop, in the paper's letters.
+
+    Attributes:
+        rho, hanging: line density, and what of it loads the tension, kg/m.
+        m: mass of the ROV, kg.
+        g: gravity, m/s2.
+        c: damping of the cable, N s/m2.
+        beta: slope gain, m/s.
+        k_a: boundary damping that is left for the proof, N s/m: all of it, or half when no disturbance observer
+            takes the disturbance off the law and the other half must.
+        k_s: gain of the disturbance observer, 1/s; None without one.
+        vs: its coupling, kg/s.
+    """
+
+    rho: float
+    hanging: float
+    m: float
+    g: float
+    c: float
+    beta: float
+    k_a: float
+    k_s: float | None
+    vs: float
+
+
+class Motion(NamedTuple):
+    """The winch at sampled instants; each an array (slabs, samples): t, l, v, a and a'/(g - a)."""
+
+    t: np.ndarray
+    l: np.ndarray  # noqa: E741 - the paper's letter
+    v: np.ndarray
+    a: np.ndarray
+    jerk: np.ndarray
+
+
+def loop_of(scenario: Scenario) -> Loop:
+    """Constants of the ideal loop.
+
+    Raises:
+        ScenarioError: the outer law is not the boundary law, or its slope gain is 0.
+    """
+    law, observer = scenario.control.law, scenario.control.disturbance_observer
+    if not isinstance(law, BoundaryLaw):
+        reason = "the certificate is about the boundary law, eq. (22)"
+        raise ScenarioError([_problem("control.law.kind", f'"{law.kind}"', '"boundary"', reason)], scenario.name)
+    if law.slope_gain <= 0.0:
+        reason = "without the slope u_a says nothing about the waves in the cable; nothing can be certified"
+        raise ScenarioError([_problem("control.law.slope_gain", "0 m/s", "above 0 m/s", reason)], scenario.name)
+    observes = observer is not None and observer.enabled
+    return Loop(
+        rho=scenario.cable.line_density,
+        hanging=scenario.cable.hanging_density,
+        m=scenario.payload.mass,
+        g=scenario.environment.gravity,
+        c=scenario.cable.damping,
+        beta=law.slope_gain,
+        k_a=law.damping_gain if observes else law.damping_gain / 2.0,
+        k_s=observer.gain if observer is not None and observes else None,
+        vs=observer.coupling if observer is not None else 1.0,
+    )
+
+
+def _problem(key: str, value: str, bound: str, reason: str) -> Problem:
+    return Problem(key, value, bound, reason, "the boundary law with a slope_gain of, for example, 5 m/s")
+
+
+def slab_edges(winch: Winch, duration: float) -> np.ndarray:
+    """Instants between which rates are constant, s: every jump of the winch, and evenly between them."""
+    if isinstance(winch, ConstantLength):
+        return np.array([0.0, duration])
+    count = SLABS
+    if isinstance(winch, Cosine):
+        turns = winch.frequency * duration / (2.0 * np.pi)
+        count = int(min(max(SLABS, _SLABS_PER_TURN * turns), _MOST_SLABS))
+    marks = np.unique(np.clip([0.0, *laws.jumps(winch), duration], 0.0, duration))
+    edges = [np.linspace(a, b, max(1, round(count * (b - a) / duration)) + 1)[:-1] for a, b in pairwise(marks)]
+    return np.append(np.concatenate(edges), duration)
+
+
+def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Motion:
+    """The winch at :data:`SAMPLES` instants of each slab; limits at its ends are those from inside."""
+    t = np.linspace(edges[:-1], edges[1:], SAMPLES, axis=1)
+    right, left = laws.evaluate(winch, t, "right"), laws.evaluate(winch, t, "left")
+    last = np.arange(SAMPLES) == SAMPLES - 1
+    length, speed, acceleration, jerk = (np.where(last, b, f) for f, b in zip(right, left, strict=True))
+    return Motion(t, length, speed, acceleration, jerk / (gravity - acceleration))
+
+
+def stopped(motion: Motion) -> Motion:
+    """The same cable with the winch stopped at its greatest length; one slab, one sample."""
+    zero = np.zeros((1, 1))
+    return Motion(zero, np.full((1, 1), motion.l.max()), zero, zero, zero)

@@ -1,0 +1,233 @@
+"""``umbilical certify``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from typer import Argument, Option
+
+from umbilical.cli.running import load_changed
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, shown_unit, table
+from umbilical.cli.targets import PICTURES, check_target
+from umbilical.quantities import CERTIFICATE
+
+if TYPE_CHECKING:
+    from umbilical.analysis.certificate import Certificate, Inequality
+    from umbilical.scenario import Scenario
+    from umbilical.studies.audit import Audit
+
+SCATTER = 1e-3
+"""By how much sampling and grid may lift V of an ideal run over its bound before the bound counts as broken."""
+
+
+def certify(
+    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
+    ] = None,
+    audit: Annotated[bool, Option("--audit", help="Simulate the ideal and the real loop, and compare.")] = False,
+    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Prove how fast the ideal loop calms down over the whole run, or say what stands against it.
+
+    \b
+    examples
+      umbilical certify ringdown --set control.law.slope_gain=5
+      umbilical certify haul-in --audit --plot haul-in-certificate.png
+
+    The ideal loop has no observers, no sampling and perfect thrusters. The exit code is 7 when nothing is certified.
+    """
+    chosen = load_changed(scenario, changes or [])
+    if plot:
+        check_target(plot, PICTURES, force=force)
+    found, checked = _work(chosen, audit)
+    files = {"plot": str(_draw(found, checked, plot, force))} if plot else {}
+    if as_json:
+        say_json(_document(found, checked, files))
+    else:
+        say("\n".join([*_report(found), *(_audit_report(checked) if checked else ()), *_written(files)]))
+    broken = checked is not None and checked.excess > 1.0 + SCATTER
+    return 0 if found.holds and not broken else DOES_NOT_HOLD
+
+
+def _work(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
+    if not audit:
+        from umbilical.analysis.certificate import certify as prove
+
+        return prove(scenario), None
+    from umbilical.cli.progress import announce_compilation, bar
+    from umbilical.studies import audit as audits
+
+    announce_compilation()
+    with bar("simulating the ideal and the real loop") as advance:
+        checked = audits.audit(scenario, progress=advance)
+    return checked.certificate, checked
+
+
+def _draw(certificate: Certificate, audit: Audit | None, plot: Path, force: bool) -> Path:
+    from umbilical.plots import plot_certificate, save_figure
+
+    return save_figure(plot_certificate(certificate, audit), plot, force=force)
+
+
+def _written(files: dict[str, str]) -> list[str]:
+    return [f"  {role}: {path}" for role, path in files.items()]
+
+
+def _report(certificate: Certificate) -> Iterator[str]:
+    """The verdict, the conditions, what follows, and what it does not speak about."""
+    yield _verdict(certificate)
+    yield table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
+    yield ""
+    yield table(
+        [
+            (n, f"{value:.6g}", shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
+            for n, value in _numbers(certificate)
+        ]
+    )
+    yield f"  {_proof(certificate)}"
+    yield from _consequences(certificate)
+    yield ""
+    yield "  the paper's own conditions, as printed (docs/certificates.md says which signs were restored):"
+    yield table([_row(inequality) for inequality in certificate.paper], right=[2, 4, 6])
+    yield ""
+    yield f"  outside the certificate: {'; '.join(certificate.limits) or 'nothing'}"
+
+
+def _verdict(certificate: Certificate) -> str:
+    name = certificate.scenario.name
+    if certificate.holds:
+        return f"{name}: certified, V decays at {certificate.rate:.4g} 1/s or faster"
+    failed = [
+        f"{i.name} ({i.equation}) fails by {-i.margin:.3g} {shown_unit(i.unit)}".rstrip() for i in certificate.broken
+    ]
+    open_ones = (
+        [f"{n} not proved from {a:.6g} to {b:.6g} s" for n, a, b in certificate.proof.open[:1]] if not failed else []
+    )
+    lines = [f"{name}: not certified: {'; '.join(failed + open_ones)}"]
+    lines += [f"  cure: {cure.cure} ({cure.key} = {cure.value}; certified: {cure.bound})" for cure in certificate.cures]
+    return "\n".join(lines)
+
+
+def _row(inequality: Inequality) -> tuple[str, ...]:
+    place = [f"{name} = {value:.4g} {unit}" for name, value, unit in
+             (("x", inequality.x, "m"), ("t", inequality.t, "s")) if value is not None]  # fmt: skip
+    return (
+        inequality.name,
+        inequality.equation,
+        f"{inequality.left:.4g}",
+        "<" if inequality.strict else "<=",
+        f"{inequality.right:.4g}",
+        inequality.unit,
+        f"{inequality.margin:.3g}",
+        "" if inequality.holds else "FAILS",
+        ", ".join(place),
+    )
+
+
+def _numbers(certificate: Certificate) -> list[tuple[str, float]]:
+    """Single numbers of a certificate by name."""
+    from umbilical.analysis.certificate import lyapunov_of
+
+    names = ("rate", "fixed_length_rate", "exact_rate", "spent", "residual")
+    start = lyapunov_of(certificate.loop, certificate.weights, certificate.start)
+    return [
+        *certificate.weights._asdict().items(),
+        *((name, getattr(certificate, name)) for name in names),
+        ("start", start),
+    ]
+
+
+def _proof(certificate: Certificate) -> str:
+    proof = certificate.proof
+    if proof.holds:
+        return f"verified for all x and t by interval arithmetic, in {proof.boxes} boxes of time"
+    return f"not verified: {len(proof.open)} slabs of time stayed open"
+
+
+def _consequences(certificate: Certificate) -> Iterator[str]:
+    """Bounds of V and of the displacement from the scenario's own start."""
+    bounds = _bounds(certificate)
+    if bounds:
+        yield f"  V stays below {bounds['lyapunov_largest']:.4g} J and ends below {bounds['lyapunov_end']:.4g} J"
+        yield (
+            f"  |y| stays below {bounds['tip_largest']:.4g} m all along the cable ({bounds['middle_largest']:.4g} m at "
+            f"its middle) and ends below {bounds['tip_end']:.4g} m ({bounds['middle_end']:.4g} m)"
+        )
+
+
+def _bounds(certificate: Certificate) -> dict[str, float]:
+    """Largest and last bounds of V, J, and of |y|, m; none where nothing is proved."""
+    import numpy as np
+
+    from umbilical.analysis.certificate import bound, cable_bound, displacement_bound
+
+    if not np.isfinite(certificate.rates).all() or not certificate.proof.holds:
+        return {}
+    t = np.linspace(0.0, float(certificate.edges[-1]), 401)
+    of_v, of_cable = bound(certificate, t), cable_bound(certificate, t)
+    places = {"largest": float(of_cable.max()), "end": float(of_cable[-1])}
+    found = {"lyapunov_largest": float(of_v.max()), "lyapunov_end": float(of_v[-1])}
+    for when, value in places.items():
+        found[f"middle_{when}"], found[f"tip_{when}"] = displacement_bound(certificate, value)
+    return found
+
+
+def _audit_report(audit: Audit) -> Iterator[str]:
+    """What the two simulations made of V."""
+    yield ""
+    rows = [("V, J", "at the start", "at the end", "its bound there", "largest over its bound", "ended")]
+    ends = f"{audit.bound[-1]:.4g}"
+    rows += [
+        (name, f"{v[0]:.4g}", f"{v[-1]:.4g}", limit, f"{ratio:.4g}", run.status.name)
+        for name, v, limit, ratio, run in (
+            ("ideal loop", audit.ideal, ends, audit.excess, audit.ideal_run),
+            ("real loop", audit.real, "-", audit.real_excess, audit.real_run),
+        )
+    ]
+    yield table(rows, right=[1, 2, 3, 4])
+    yield f"  the ideal loop's V is the integral of its exact rate within {audit.identity:.1e} of its largest value"
+
+
+def _document(certificate: Certificate, audit: Audit | None, files: dict[str, str]) -> dict[str, Any]:
+    """A certificate as ``--json`` prints it."""
+    return {
+        "status": "CERTIFIED" if certificate.holds else "NOT_CERTIFIED",
+        "scenario": certificate.scenario.name,
+        "scenario_hash": certificate.scenario.hash,
+        "inequalities": [_inequality(i) for i in certificate.inequalities],
+        "paper": [_inequality(i) for i in certificate.paper],
+        **dict(_numbers(certificate)),
+        "edges": certificate.edges.tolist(),
+        "rates": certificate.rates.tolist(),
+        "loads": certificate.loads._asdict(),
+        "bounds": _bounds(certificate),
+        "proof": certificate.proof._asdict(),
+        "cures": [asdict(cure) for cure in certificate.cures],
+        "limits": certificate.limits,
+        "audit": _audit_document(audit) if audit else None,
+        "files": files,
+    }
+
+
+def _inequality(inequality: Inequality) -> dict[str, Any]:
+    return asdict(inequality) | {"margin": inequality.margin, "holds": inequality.holds}
+
+
+def _audit_document(audit: Audit) -> dict[str, Any]:
+    return {
+        "excess": audit.excess,
+        "real_excess": audit.real_excess,
+        "identity": audit.identity,
+        "ideal_status": audit.ideal_run.status.name,
+        "real_status": audit.real_run.status.name,
+        "ideal_start": float(audit.ideal[0]),
+        "ideal_end": float(audit.ideal[-1]),
+        "real_start": float(audit.real[0]),
+        "real_end": float(audit.real[-1]),
+    }

@@ -1,0 +1,91 @@
+"""A certificate over time: V under its bound, the proved rate, and the margins of its conditions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.analysis.certificate import bound
+from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.quantities import CERTIFICATE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from umbilical.analysis.certificate import Certificate
+    from umbilical.studies.audit import Audit
+
+SAMPLES = 801
+DECADES = 8
+"""Powers of ten that are drawn of V, from its largest bound down."""
+
+
+def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Figure:
+    """V and its bound, the rate, and the margins, one above the other.
+
+    Args:
+        certificate: from :func:`umbilical.certify`.
+        audit: its two simulations, drawn beside the bound.
+    """
+    figure = new_figure(9.0, 8.0)
+    of_v, of_rate, of_margin = figure.subplots(3, 1, sharex=True)
+    draw_lyapunov(of_v, certificate, audit)
+    draw_rates(of_rate, certificate)
+    draw_margins(of_margin, certificate)
+    of_margin.set_xlabel("time [s]")
+    verdict = "certified" if certificate.holds else "not certified"
+    figure.suptitle(f"{certificate.scenario.name}: {verdict}", fontsize=12)
+    return figure
+
+
+def draw_lyapunov(ax: Axes, certificate: Certificate, audit: Audit | None) -> None:
+    """The bound of V from the start of the ideal run, or of the scenario; V of both runs."""
+    t = np.linspace(0.0, float(certificate.edges[-1]), SAMPLES)
+    start = float(audit.ideal[0]) if audit and audit.ideal.size else None
+    limit = bound(certificate, t, start) if np.isfinite(certificate.rates).all() else np.full(t.shape, np.nan)
+    ax.plot(t, limit, color=COLOURS[6], linewidth=1.4, label="certified bound")
+    highest = float(np.nanmax(limit, initial=0.0))
+    if audit:
+        ax.plot(audit.real_time, audit.real, color=COLOURS[1], linewidth=1.2, label="the run as it is")
+        ax.plot(audit.time, audit.ideal, color=COLOURS[0], linewidth=1.2, linestyle="--", label="ideal loop")
+        highest = max(highest, float(audit.ideal.max(initial=0.0)))
+    if highest > 0.0:
+        ax.set_yscale("log")
+        ax.set_ylim(highest * 10.0**-DECADES, highest * 10.0)
+    _finish(ax, CERTIFICATE["lyapunov"].meaning, "$V$ [J]")
+
+
+def draw_rates(ax: Axes, certificate: Certificate) -> None:
+    """The proved rate of each slab, beside the rates with the winch stopped."""
+    ax.stairs(
+        certificate.rates,
+        certificate.edges,
+        baseline=None,
+        color=COLOURS[0],
+        linewidth=1.4,
+        label="proved, winch as it runs",
+    )
+    ax.axhline(certificate.fixed_length_rate, color=COLOURS[2], linewidth=1.2, linestyle="--", label="winch stopped")
+    ax.axhline(certificate.exact_rate, color=COLOURS[1], linewidth=1.2, linestyle=":", label="exact, winch stopped")
+    ax.axhline(0.0, color=QUIET, linewidth=0.8)
+    _finish(ax, "rate of decay of V", r"$\vartheta$ [1/s]")
+
+
+def draw_margins(ax: Axes, certificate: Certificate) -> None:
+    """Smallest margin of each condition in each slab, over its larger side."""
+    for number, (name, margin) in enumerate(certificate.margins.items()):
+        colour, dashes = COLOURS[number % len(COLOURS)], ("-", "--", ":")[number // 3 % 3]
+        ax.stairs(margin, certificate.edges, baseline=None, color=colour, linestyle=dashes, linewidth=1.3, label=name)
+    ax.axhline(0.0, color=QUIET, linewidth=0.8)
+    _finish(ax, "margin over the larger side: below 0 a condition fails", "margin")
+
+
+def _finish(ax: Axes, title: str, label: str) -> None:
+    ax.set_title(title, fontsize=9.5, loc="left")
+    ax.set_ylabel(label)
+    ax.margins(x=0.0)
+    ax.grid(alpha=0.25, linewidth=0.6)
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.legend(fontsize=8, ncols=4, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)

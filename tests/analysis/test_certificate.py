@@ -1,0 +1,163 @@
+"""Certificates: the numbers of the model's section 7, optimality, cures, refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+import umbilical
+from tests.support.certificates import FREE, GAIN, fixed, hauled_in, matrices
+from umbilical.analysis.certificate import Inequality
+from umbilical.analysis.certificate.conditions import extent, largest_cross, rates
+from umbilical.analysis.certificate.search import best_weights
+from umbilical.analysis.certificate.setting import Loop, Motion, loop_of, sampled, slab_edges
+from umbilical.errors import ScenarioError
+
+MODEL = 0.02
+"""The model gives two digits."""
+
+
+def prepared(scenario: umbilical.Scenario) -> tuple[Loop, Motion]:
+    edges = slab_edges(scenario.winch, scenario.duration)
+    return loop_of(scenario), sampled(scenario.winch, scenario.environment.gravity, edges)
+
+
+@pytest.mark.parametrize(
+    ("slope_gain", "rate", "exact"),
+    [(0.01, 2.0e-5, 7.3e-5), (5.0, 0.010, 0.028), (10.0, 0.020, 0.056), (20.0, 0.038, 0.116), (50.0, 0.0755, 0.36)],
+)
+def test_fixed_length(slope_gain: float, rate: float, exact: float) -> None:
+    certificate = umbilical.certify(fixed(slope_gain))
+    assert certificate.holds
+    assert certificate.proof.holds
+    assert certificate.rate == pytest.approx(rate, rel=MODEL)
+    assert certificate.fixed_length_rate == pytest.approx(rate, rel=MODEL)
+    assert certificate.exact_rate == pytest.approx(exact, rel=MODEL)
+    assert certificate.rate < certificate.exact_rate < 5.0 * certificate.rate
+
+
+@pytest.mark.parametrize(("slope_gain", "rate"), [(5.0, 0.0090), (20.0, 0.037)])
+def test_hauling_in(slope_gain: float, rate: float) -> None:
+    certificate = umbilical.certify(hauled_in(slope_gain))
+    assert certificate.holds
+    assert certificate.proof.holds
+    assert certificate.rate == pytest.approx(rate, rel=MODEL)
+    assert certificate.rate < certificate.fixed_length_rate
+
+
+def test_hauling_in_cannot_be_certified_with_the_gain_of_the_paper() -> None:
+    certificate = umbilical.certify(hauled_in(0.01))
+    assert not certificate.holds
+    assert np.isnan(certificate.rate)
+    assert [inequality.name for inequality in certificate.broken] == ["K2"]
+    assert certificate.broken[0].margin == pytest.approx(-0.99, rel=0.01)
+
+
+@pytest.mark.parametrize(("slope_gain", "rate"), [(0.01, -1.2e-3), (0.5, -2.0e-4), (1.0, 8.0e-4), (5.0, 8.75e-3)])
+def test_the_jerk_of_the_winch(slope_gain: float, rate: float) -> None:
+    """On the payout of the preset 'paper'; the rates of section 7."""
+    certificate = umbilical.certify(umbilical.load("paper", {GAIN: slope_gain}))
+    assert certificate.rate == pytest.approx(rate, rel=MODEL)
+    assert certificate.holds == (rate > 0.0)
+    assert certificate.proof.holds, "also what is negative is proved"
+    assert [inequality.name for inequality in certificate.broken] == ([] if rate > 0.0 else ["K5"])
+
+
+def test_a_weight_that_follows_the_tension_moves_the_jerk_in_time_and_does_not_absorb_it() -> None:
+    """With V -> (g - a)^-nu V the rate is ``th - nu a'/(g - a)``: better pointwise, the same over the whole run."""
+    loop, motion = prepared(umbilical.load("paper", {GAIN: 0.5}))
+    found = best_weights(loop, motion)
+    assert found is not None
+    plain = rates(loop, motion, *found)
+    best = {nu: float((plain - nu * motion.jerk).min()) for nu in (0.0, 1.0 / 3.0, 1.0)}
+    assert best[0.0] < 0.0 < best[1.0 / 3.0], "a third of it certifies a smaller gain"
+    assert best[1.0] < best[0.0], "following the tension wholly makes it worse"
+    toll = np.trapezoid(motion.jerk.ravel(), motion.t.ravel())
+    assert abs(toll) < 1e-4 * np.abs(np.diff(np.log(1.0 - motion.a.ravel() / loop.g))).sum(), (
+        "over the run its integral is ln((g - a(0))/(g - a(end))), here 0"
+    )
+
+
+def test_the_ends_of_the_cable_decide() -> None:
+    """Smallest eigenvalue at 200 x and every sample, by LAPACK, against the formula at the two ends."""
+    loop, motion = prepared(umbilical.load("haul-in", {GAIN: 20.0, "cable.damping": 0.3}))
+    found = best_weights(loop, motion)
+    assert found is not None
+    formula = rates(loop, motion, *found)
+    for slab in range(0, motion.t.shape[0], 6):
+        at = float(motion.l[slab, 0]), float(motion.v[slab, 0]), float(motion.a[slab, 0]), float(motion.jerk[slab, 0])
+        pairs = [matrices(loop, *found, x, at) for x in np.linspace(0.0, at[0], 200)]
+        lowest = min(2.0 * eigh(m, n, eigvals_only=True)[0] for n, m in pairs)
+        assert lowest == pytest.approx(formula[slab, 0], rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["paper", "haul-in"])
+@pytest.mark.parametrize("slope_gain", [5.0, 45.0, 200.0])
+def test_no_weights_at_random_are_better(name: str, slope_gain: float) -> None:
+    loop, motion = prepared(umbilical.load(name, {GAIN: slope_gain, "cable.damping": 0.05}))
+    found = best_weights(loop, motion)
+    assert found is not None
+    room, dice = extent(loop, motion), np.random.default_rng(1)
+    vessel = dice.uniform(room.least_vessel, room.reach.min(), 3000)
+    cross = dice.uniform(0.0, 1.0, 3000) ** 0.3 * largest_cross(motion, room, vessel)
+    others = rates(loop, motion, cross[:, None, None], vessel[:, None, None]).min(axis=(1, 2))
+    assert others.max() <= rates(loop, motion, *found).min() * (1.0 + 1e-3)
+
+
+def test_the_cure_is_the_edge_of_what_can_be_certified() -> None:
+    """Hauling in at 1.2 m/s."""
+    certificate = umbilical.certify(hauled_in(1.0, speed=1.2, duration=50.0))
+    (cure,) = certificate.cures
+    assert cure.key == GAIN
+    assert cure.cure.startswith("slope_gain must exceed 1.2 m/s for hauling in at 1.2 m/s")
+    assert umbilical.certify(hauled_in(1.22, speed=1.2, duration=50.0)).holds
+    assert not umbilical.certify(hauled_in(1.19, speed=1.2, duration=50.0)).holds
+
+
+def test_a_gain_can_be_too_large() -> None:
+    """``c_l^2/beta`` must exceed the speed of hauling in, too: 2500/3000 < 1."""
+    certificate = umbilical.certify(hauled_in(3000.0, duration=50.0))
+    assert [inequality.name for inequality in certificate.broken] == ["K1"]
+    assert "must stay below 2.4" in certificate.cures[0].cure
+
+
+def test_no_gain_mends_a_winch_that_jerks() -> None:
+    winch = {"law": "cosine", "start_length": 400.0, "amplitude": 0.5, "frequency": 1.5}
+    certificate = umbilical.certify(umbilical.load("paper", FREE | {GAIN: 5.0, "winch": winch}))
+    assert not certificate.holds
+    assert certificate.cures[0].key == "winch"
+
+
+@pytest.mark.parametrize(
+    ("preset", "change", "key"),
+    [
+        ("paper-pd", {}, "control.law.kind"),
+        ("paper-none", {}, "control.law.kind"),
+        ("paper", {GAIN: 0.0}, "control.law.slope_gain"),
+    ],
+)
+def test_what_it_is_not_about_is_refused(preset: str, change: dict[str, float], key: str) -> None:
+    with pytest.raises(ScenarioError) as refused:
+        umbilical.certify(umbilical.load(preset, change))
+    assert [problem.key for problem in refused.value.problems] == [key]
+
+
+def test_limits_name_what_lies_between_the_ideal_loop_and_the_scenario() -> None:
+    assert len(umbilical.certify(umbilical.load("paper-dead-adaptive", {GAIN: 5.0})).limits) == 5
+    assert len(umbilical.certify(umbilical.load("crosscheck-proposed", {GAIN: 5.0})).limits) == 2
+
+
+def test_an_inequality_at_its_edge() -> None:
+    assert Inequality("a", "a <= b", 1.0, 1.0, "1").holds
+    assert not Inequality("a", "a < b", 1.0, 1.0, "1", strict=True).holds
+    assert not Inequality("a", "a <= b", 1.0, float("nan"), "1").holds
+
+
+def test_the_papers_conditions_fail_for_its_own_gains() -> None:
+    """Paying out faster than beta breaks iota_5 whatever the free numbers; the observers' errors break iota_6."""
+    by_name = {i.name: i for i in umbilical.certify(umbilical.load("paper")).paper}
+    assert len(by_name) == 7
+    assert {name for name, i in by_name.items() if not i.holds} == {"iota_2", "iota_5", "iota_6"}
+    still = {i.name: i.holds for i in umbilical.certify(fixed(0.01)).paper}
+    assert [name for name, holds in still.items() if not holds] == ["iota_6"]
