@@ -22,6 +22,7 @@ EXIT_CODES = {
     4: "a file cannot be written",
     5: "a controller failed",
     6: "an optional package is missing",
+    7: "what was asked does not hold",
     130: "interrupted; the result up to then is kept",
 }
 
