@@ -8,12 +8,12 @@ import sys
 import pytest
 
 from umbilical import __version__
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.speech import DOES_NOT_HOLD, EXIT_CODES
 from umbilical.errors import UmbilicalError
 from umbilical.run import Status
 
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
-COMMANDS = ("run", "show", "compare", "export", "plot", "presets", "schema", "doctor", "bench")
+COMMANDS = ("run", "show", "compare", "export", "plot", "reproduce", "presets", "schema", "doctor", "bench")
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,8 @@ def test_help_names_every_command_and_exit_code(umbilical):
 def test_the_exit_codes_are_those_of_runs_and_errors():
     of_errors = {kind.exit_code for kind in UmbilicalError.__subclasses__()} | {UmbilicalError.exit_code}
     of_runs = {status.exit_code for status in Status}
-    assert set(EXIT_CODES) == of_errors | of_runs
+    of_verdicts = {DOES_NOT_HOLD}
+    assert set(EXIT_CODES) == of_errors | of_runs | of_verdicts
 
 
 @pytest.mark.parametrize("command", COMMANDS)

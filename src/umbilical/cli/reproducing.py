@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.speech import say, say_json, table, tell
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
 from umbilical.errors import OutputError
 
 if TYPE_CHECKING:
@@ -49,10 +49,10 @@ def reproduce(
     if as_json:
         say_json(document(found, moved, written))
     else:
-        say(summary(found, written))
+        say(summary(found, out, written))
     for one in moved:
         tell(f"not as published: {one}")
-    return 7 if check and moved else 0
+    return DOES_NOT_HOLD if check and moved else 0
 
 
 def check_names(names: list[str]) -> list[str]:
@@ -81,12 +81,16 @@ def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
         raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")
 
 
-def summary(found: Reproduction, written: dict[str, Any]) -> str:
+def summary(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
     """The ledger, and where the files are."""
-    lines = [table([(f.id, f.conclusion, f.statement) for f in found.findings])] if found.findings else []
-    lines += [f"  {f.id}: {f.because}" for f in found.findings]
-    lines += [f"  {name}: {', '.join(paths.values())}" for name, paths in written["figures"].items()]
-    return "\n".join([*lines, *([f"  report: {written['report']}"] if "report" in written else [])])
+    from umbilical.reproduce.reproduction import KINDS
+
+    lines = [
+        f"{f.id:<4} {f.statement}\n     {f.conclusion[0].upper() + f.conclusion[1:]}. {f.because}"
+        for f in found.findings
+    ]
+    lines.append(f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}")
+    return "\n".join([*lines, *([f"report: {written['report']}"] if "report" in written else [])])
 
 
 def document(found: Reproduction, moved: list[Deviation], written: dict[str, Any]) -> dict[str, Any]:

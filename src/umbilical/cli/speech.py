@@ -14,6 +14,7 @@ from umbilical.errors import ScenarioError
 if TYPE_CHECKING:
     from umbilical.run import Run
 
+DOES_NOT_HOLD = 7
 EXIT_CODES = {
     0: "completed",
     1: "unexpected error: a bug of ours",
@@ -22,7 +23,7 @@ EXIT_CODES = {
     4: "a file cannot be written",
     5: "a controller failed",
     6: "an optional package is missing",
-    7: "what was asked does not hold",
+    DOES_NOT_HOLD: "what was asked does not hold",
     130: "interrupted; the result up to then is kept",
 }
 

@@ -57,8 +57,9 @@ def article(found: Reproduction, moved: list[Deviation]) -> str:
 def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
     count = Counter(finding.verdict for finding in found.findings)
     told = (
-        f"Of {len(found.findings)} statements, {count[Verdict.HOLDS]} hold, {count[Verdict.CONDITIONAL]} hold under a "
-        f"condition, and {count[Verdict.FAILS]} do not reproduce."
+        f"Of {len(found.findings)} statements {count[Verdict.HOLDS]} hold, {count[Verdict.CONDITIONAL]} under a "
+        "condition; "
+        f"not reproduced: {count[Verdict.FAILS]}."
     )
     check = "Every number is as published, within its tolerance." if not moved else "Not as published:"
     return join(

@@ -82,7 +82,7 @@ def a2(evidence: Evidence) -> Finding:
     numbers = [
         Number("fast_end", fast.end_time, "s", "dead, ten times faster, no observer: diverges at", Kind.INSTANT),
         Number("long_end", long.end_time, "s", "no fault, rates of the preset, no observer: diverges at", Kind.INSTANT),
-        Number("long_kappa", before, "rad2/(N s2)", "kappa_0 ten seconds before; exact is 0.5", Kind.ERROR),
+        Number("long_kappa", before, "rad2/(N s2)", "kappa_0 ten seconds before; exact is 0.5", Kind.INSTANT),
         Number(
             "observer_kappa", end, "rad2/(N s2)", f"kappa_0 after {seen.end_time:g} s with the observer", Kind.ERROR
         ),
@@ -103,10 +103,9 @@ def a2(evidence: Evidence) -> Finding:
         "Whether the run diverges: motor 2 dead with ten times the rates; and no fault, the preset's rates, 400 s.",
         tuple(numbers),
         decide(all(lost), any(lost)),
-        f"Without the disturbance observer it diverges at {short(fast.end_time)} s with ten times the rates, and "
-        "with the "
-        f"preset's rates, no fault, {_when(long)}. Any motion pushes kappa_0 up, to {short(before)} ten seconds "
-        "before, where 0.5 is exact.",
+        f"Without the disturbance observer it diverges {_when(fast)} with ten times the rates, and with the preset's "
+        f"rates and no fault {_when(long)}. Any motion pushes kappa_0 up, to {short(before)} ten seconds before that, "
+        "where 0.5 is exact.",
         region,
     )
 
@@ -129,10 +128,11 @@ def a3(evidence: Evidence) -> Finding:
         f"The two runs of A2 again, kappa projected onto a box (kappa_0 up to {limit:g}, three times exact).",
         (
             Number("dead_peak", boxed[0].metrics["tip_peak"], "m", "peak, dead, ten times the rates, boxed"),
-            Number("long_peak", boxed[1].metrics["tip_peak"], "m", "peak, no fault, 400 s, boxed"),
+            Number("long_peak", boxed[1].metrics["tip_peak"], "m", "peak, no fault, 400 s, boxed", Kind.RATCHET),
         ),
         decide(all(saved), any(saved)),
-        f"Both come to their end, with peaks of {short(boxed[0].metrics['tip_peak'])} and "
+        f"{saved.count(True)} of 2 come to their end that did not; the peaks are "
+        f"{short(boxed[0].metrics['tip_peak'])} and "
         f"{short(boxed[1].metrics['tip_peak'])} m.",
         "The box must lie below the gain at which the loop runs away (C7a); it stops the ratchet and does not make the "
         "adaptation find the exact value.",

@@ -82,7 +82,8 @@ def c7a(evidence: Evidence) -> Finding:
         lost += [name for name, (count, _) in counted.items() if count]
         cells = sum(size for _, size in counted.values())
         count = sum(count for count, _ in counted.values())
-        numbers.append(Number("diverged", count, "1", f"diverged, of {cells} runs with a fault", Kind.COUNT))
+        numbers.append(Number("diverged", count, "1", "runs of the maps that diverged after a fault", Kind.COUNT))
+        numbers.append(Number("cells", cells, "1", "runs of the maps with a fault"))
         found = runaways(evidence.edges, "without")
         numbers += found.numbers
         region = f"{count} of {cells} runs over effectiveness, instant, stuck value and belief diverge. {found.words}"
@@ -92,10 +93,10 @@ def c7a(evidence: Evidence) -> Finding:
         "Whether any run with a fault of one motor diverges: three cases, and every cell of two maps.",
         tuple(numbers),
         decide(bool(lost)),
-        f"It stays: the peaks after the fault are {_list(peaks)} m. The disturbance observer is driven by the "
+        f"{'Lost: ' + ', '.join(lost) if lost else 'None does'}; the peaks after the fault are {_list(peaks)} m. The "
+        "disturbance observer is driven by the "
         "commanded thrust, so what the motor fails to deliver looks like a load and is followed (error "
-        f"{percent(seen)}). Without the observer "
-        f"the ROV drifts ({short(abs(blind['tip_end']))} m at the end), which is no divergence either.",
+        f"{percent(seen)}). Without the observer the ROV drifts: {short(abs(blind['tip_end']))} m at the end, dead.",
         region,
     )
 
@@ -225,7 +226,7 @@ def c9(evidence: Evidence) -> Finding:
         (
             Number("D_error", error, "1", "relative error of D", Kind.ERROR),
             *(
-                Number(f"d2_error_{k}", e, "1", f"the same of d2, motor {k}", Kind.ERROR)
+                Number(f"d2_error_{k}", e, "1", f"the same of d2, motor {k}", Kind.SAMPLED)
                 for k, e in enumerate(motors, 1)
             ),
             Number("d2_lag", lag, "1", f"error of a lag 1/g_o at {fastest:g} rad/s"),

@@ -43,7 +43,7 @@ def c1(evidence: Evidence) -> Finding:
         Number("early_peak", early, "m", f"peak of the ROV, 0 to {half:g} s"),
         Number("late_peak", late, "m", f"peak of the ROV, {half:g} to {2 * half:g} s"),
         Number("long_peak", long.metrics["tip_peak"], "m", f"peak of the ROV in {long.scenario.duration:g} s"),
-        Number("reached", _instant_of_peak(free), "s", "instant of the largest excursion", Kind.INSTANT),
+        Number("reached", _instant_of_peak(free), "s", "instant of the largest excursion"),
     ]
     return Finding(
         "C1",

@@ -181,7 +181,8 @@ _ALL = (
     Picture(
         "gain",
         "Where the loop runs away",
-        "Peak of the ROV over the gain of the allocation at the start; crosses at the top: diverged.",
+        "Peak of the ROV over the gain of the allocation at the start, without and with fault control; crosses at the "
+        "top: diverged.",
         paper.draw_gain,
     ),
     Picture(

@@ -31,11 +31,13 @@ class Kind(Enum):
 
     PEAK = "peak"
     ERROR = "error"
+    SAMPLED = "sampled"
     FRONT = "front"
     COUNT = "count"
     SHARE = "share"
     INSTANT = "instant"
     EDGE = "edge"
+    RATCHET = "ratchet"
 
 
 class Number(NamedTuple):

@@ -73,7 +73,7 @@ def reproduce(names: Sequence[str] = (), *, maps: bool = True, progress: Progres
     running, mapping, drawing = parts(progress, [8.0, 60.0 if mapped else 0.0, 10.0])
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
     slices = compute_slices(mapping) if mapped else {}
-    findings = () if names else judge(Evidence(runs, slices, _edges(slices)))
+    findings = () if names else judge(Evidence(runs, slices, find_edges(slices)))
     shown = []
     for picture in pictures:
         shown.append(show(picture, runs, slices))
@@ -87,7 +87,7 @@ def run_experiments(names: Sequence[str], progress: Progress | None = None) -> R
     return dict(zip(names, in_parallel(simulate, scenarios, progress), strict=True))
 
 
-def _edges(slices: Mapping[str, xarray.Dataset]) -> dict[str, float]:
+def find_edges(slices: Mapping[str, xarray.Dataset]) -> dict[str, float]:
     """Edges of stability, and whether three grids agree on the first."""
     if not slices:
         return {}

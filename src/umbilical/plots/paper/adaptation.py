@@ -65,7 +65,7 @@ def draw_gain(data: xarray.Dataset) -> Figure:
                 color=COLOURS[k],
                 linewidth=0.9,
                 markersize=3,
-                label=f"{FAULT_WORDS[str(case)]}, {arm} fault control",
+                label=f"{FAULT_WORDS[str(case)]}, {arm}",
             )
             height = 0.97 - 0.06 * k
             ax.plot(

@@ -54,7 +54,8 @@ def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNor
     x, y = data.attrs["x"], data.attrs["y"]
     values = np.ma.masked_invalid(peaks.transpose(y, x).values)
     colours = colormaps["viridis"].with_extremes(bad=LOST)
-    picture = ax.pcolormesh(data[x], data[y], values, cmap=colours, norm=norm, shading="nearest")
+    look = {"cmap": colours, "norm": norm, "shading": "nearest", "rasterized": True}
+    picture = ax.pcolormesh(data[x], data[y], values, **look)
     ax.set_xscale(data[x].attrs["scale"])
     ax.set_yscale(data[y].attrs["scale"])
     for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
@@ -68,9 +69,8 @@ def _better(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset) -> None:
     """Dots where fault control is the better one."""
     x, y = data.attrs["x"], data.attrs["y"]
     without, with_control = (peaks.sel(arm=arm).transpose(y, x).values for arm in ("without", "with"))
-    ratio = np.where(np.isnan(with_control), np.inf, with_control / np.where(np.isnan(without), np.inf, without))
-    inside = ratio < 1.0
-    rows, columns = np.nonzero(inside)
+    better = (with_control < without) | (np.isnan(without) & ~np.isnan(with_control))
+    rows, columns = np.nonzero(better)
     ax.plot(data[x].values[columns], data[y].values[rows], ".", color="white", markersize=1.2)
 
 
