@@ -10,9 +10,9 @@ import pytest
 from umbilical.admission import load
 from umbilical.engine.simulate import simulate
 from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, preset
-from umbilical.reproduce.points import GRID, Point, gain_point, make_point, run_points
+from umbilical.reproduce.points import FACTORS, GRID, Point, gain_point, make_point, run_points
 from umbilical.reproduce.regions import diverged, reversal, same_on_grids
-from umbilical.reproduce.slices import SLICES
+from umbilical.reproduce.slices import PRESET_RATES, SLICES
 
 DEFAULT = {"output.interval": 50.0}
 
@@ -23,6 +23,21 @@ def test_maps_are_fifteen_by_fifteen_and_show_the_preset() -> None:
         assert len(one.y.values) >= 15
         assert any(np.isclose(one.x.values, one.x.paper))
         assert any(np.isclose(one.y.values, one.y.paper))
+
+
+def test_ratios_are_taken_to_the_numbers_of_the_presets() -> None:
+    adaptive = load("paper-dead-adaptive").to_dict()
+    assert tuple(motor["thrust_coefficient"] for motor in adaptive["motors"]) == FACTORS
+    assert tuple(adaptive["control"]["allocation"]["rates"]) == PRESET_RATES
+    points = {point for one in SLICES for place, point in one.points() if place[-2:] == (one.y.paper, one.x.paper)}
+    for point in _observed(points):
+        believing = load(point.preset, dict(point.changes))
+        assert believing.replace({BELIEVED: None}) == load(point.preset).replace({BELIEVED: None})
+
+
+def _observed(points: set[Point]) -> list[Point]:
+    """Those with the observer on: at the place of the paper they are the presets themselves."""
+    return [point for point in points if dict(point.changes)["control.disturbance_observer.enabled"]]
 
 
 def test_equal_runs_are_made_once() -> None:

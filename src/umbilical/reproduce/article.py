@@ -65,7 +65,11 @@ def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
     return join(
         [
             paragraph(
-                "Of ", SOURCE, ". Made by ", element("code", "umbilical reproduce"), "; nothing here is typed in."
+                "Of ",
+                SOURCE,
+                ". Made by ",
+                element("code", "umbilical reproduce"),
+                "; every number and every verdict is computed.",
             ),
             paragraph(told, " ", check),
             *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),

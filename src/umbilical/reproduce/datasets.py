@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical.plots.cable import PLACES
 from umbilical.plots.figure import at_sigma
-from umbilical.reproduce.experiments import ARMS, CASES, FAULTS, Runs, cell
+from umbilical.reproduce.experiments import ARMS, CASES, Runs, cell
 from umbilical.reproduce.lyapunov import lyapunov
 from umbilical.run import Run
 
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 CONTROLLERS = {"none": "free", "pd": "pd", "proposed": cell("none", "without")}
 """The three controllers of Figs. 3 and 4, by the experiments that show them."""
-HAUL = "hauling in"
 
 
 def positions(runs: Runs) -> xarray.Dataset:
@@ -228,6 +227,3 @@ def about_fault(run: Run) -> dict[str, Any]:
     """When and which motor fails, for the marks in figures."""
     fault = run.scenario.faults[0]
     return {"fault_time": fault.start, "fault_motor": fault.motor}
-
-
-assert set(FAULTS) < set(CASES)

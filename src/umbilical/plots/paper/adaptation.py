@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS
+from umbilical.plots.figure import COLOURS, QUIET
 from umbilical.plots.paper.style import (
     LOOKS,
     TYPE,
@@ -22,6 +22,7 @@ from umbilical.plots.paper.style import (
 
 if TYPE_CHECKING:
     import xarray
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -51,39 +52,29 @@ def draw_adaptation(data: xarray.Dataset) -> Figure:
 
 def draw_gain(data: xarray.Dataset) -> Figure:
     """``peak`` over ``observer``, ``case``, ``arm`` and ``gain``; a cross at the top where the run diverged."""
-    observers = data["observer"].values
-    figure, panels = column(len(observers), 1.5)
-    for number, (ax, observer) in enumerate(zip(panels, observers, strict=True)):
-        one = data["peak"].sel(observer=observer)
-        for k, (case, arm) in enumerate((c, a) for c in one["case"].values for a in one["arm"].values):
-            values = one.sel(case=case, arm=arm)
-            lost = np.isnan(values.values)
-            ax.plot(
-                data["gain"],
-                values,
-                ".-",
-                color=COLOURS[k],
-                linewidth=0.9,
-                markersize=3,
-                label=f"{FAULT_WORDS[str(case)]}, {arm}",
-            )
-            height = 0.97 - 0.06 * k
-            ax.plot(
-                data["gain"][lost],
-                np.full(int(lost.sum()), height),
-                "x",
-                color=COLOURS[k],
-                markersize=3.5,
-                transform=ax.get_xaxis_transform(),
-            )
+    figure, panels = column(data.sizes["observer"], 1.5)
+    for number, (ax, observer) in enumerate(zip(panels, data["observer"].values, strict=True)):
+        _scan(ax, data["peak"].sel(observer=observer))
         panel(ax, f"{letter(number)} disturbance observer {observer}; x: diverged", unit_label(data["peak"]))
         ax.set_xscale("log")
         ax.set_yscale("log")
         log_axis(ax.xaxis)
         log_axis(ax.yaxis)
-        ax.axvline(1.0, color="#808080", linewidth=0.7, linestyle=":")
-        if ax is not panels[-1]:
-            ax.tick_params(labelbottom=False)
-    panels[-1].set_xlabel(f"{data['gain'].attrs['long_name']}", fontsize=TYPE)
+        ax.axvline(1.0, color=QUIET, linewidth=0.7, linestyle=":")
+        ax.tick_params(labelbottom=ax is panels[-1])
+    panels[-1].set_xlabel(str(data["gain"].attrs["long_name"]), fontsize=TYPE)
     legend(figure, panels[0], 2)
     return figure
+
+
+def _scan(ax: Axes, peaks: xarray.DataArray) -> None:
+    """A line for each case and arm, and a row of crosses where it has no value."""
+    gains = peaks["gain"].values
+    pairs = [(case, arm) for case in peaks["case"].values for arm in peaks["arm"].values]
+    for k, (case, arm) in enumerate(pairs):
+        values = peaks.sel(case=case, arm=arm).values
+        lost = gains[np.isnan(values)]
+        name = f"{FAULT_WORDS[str(case)]}, {arm}"
+        ax.plot(gains, values, ".-", color=COLOURS[k], linewidth=0.9, markersize=3, label=name)
+        height = np.full(lost.size, 0.97 - 0.06 * k)
+        ax.plot(lost, height, "x", color=COLOURS[k], markersize=3.5, transform=ax.get_xaxis_transform())
