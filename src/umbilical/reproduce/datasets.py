@@ -94,9 +94,9 @@ def balance(runs: Runs) -> xarray.Dataset:
     """Energy and the work of everything that acts, for three controllers."""
     import xarray
 
-    sources = ("thrust", "payload_force", "payload_damping", "cable_damping", "vessel", "tension")
-    names = [name.replace("_", " ") for name in sources]
-    works = [_along([runs[n][f"work_{s}"] for s in sources], "source", names) for n in CONTROLLERS.values()]
+    channels = [str(name) for name in runs["pd"].data.data_vars if str(name).startswith("work_")]
+    names = [name.removeprefix("work_").replace("_", " ") for name in channels]
+    works = [_along([runs[n][channel] for channel in channels], "source", names) for n in CONTROLLERS.values()]
     words = {"units": "J", "symbol": "", "long_name": "work since the start"}
     residual = [runs[n].metrics["energy_balance_residual"] for n in CONTROLLERS.values()]
     who = list(CONTROLLERS)

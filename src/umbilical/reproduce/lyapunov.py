@@ -54,9 +54,9 @@ def _integrals(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     length = run["length"].values[:, None]
     width = np.diff(sigma)[cells] * length
     middle = (0.5 * (sigma[1:] + sigma[:-1]))[cells] * length
-    slope = np.diff(run["displacement"].values, axis=1)[:, cells] / width
-    velocity = run["velocity"].values
-    speed = (0.5 * (velocity[:, 1:] + velocity[:, :-1]))[:, cells]
+    slope, speed = (
+        (0.5 * (values[:, 1:] + values[:, :-1]))[:, cells] for values in (run["slope"].values, run["velocity"].values)
+    )
     net = (scenario.environment.gravity - run["payout_acceleration"].values)[:, None]
     pull = tension(length - middle, net, scenario.payload.mass, scenario.cable.hanging_density)
     rho = scenario.cable.line_density
