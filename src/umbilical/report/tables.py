@@ -53,8 +53,14 @@ def given_table(scenario: Scenario, caption: str, keys: Sequence[str] = ()) -> H
 
 
 def assumed_table(scenario: Scenario, caption: str) -> Html:
-    """Values that no source gives, each with the reason."""
-    rows = [(code(e.key), code(e.value), e.unit, e.meaning, prose(e.reason)) for e in inventory(scenario) if e.assumed]
+    """Values that no source gives, each with the reason; what is assumed to be absent, too."""
+    entries = [entry for entry in inventory(scenario) if entry.assumed]
+    rows = [(code(e.key), code(e.value), e.unit, e.meaning, prose(e.reason)) for e in entries]
+    rows += [
+        (code(key), "none", "", "", prose(reason))
+        for key, reason in scenario.assumed.items()
+        if not any(f"{entry.key}.".startswith(f"{key}.") for entry in entries)
+    ]
     return table(("key", "value", "unit", "meaning", "why"), rows, caption=caption)
 
 
