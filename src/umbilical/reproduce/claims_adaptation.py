@@ -128,7 +128,7 @@ def a3(evidence: Evidence) -> Finding:
         f"The two runs of A2 again, kappa projected onto a box (kappa_0 up to {limit:g}, three times exact).",
         (
             Number("dead_peak", boxed[0].metrics["tip_peak"], "m", "peak, dead, ten times the rates, boxed"),
-            Number("long_peak", boxed[1].metrics["tip_peak"], "m", "peak, no fault, 400 s, boxed", Kind.RATCHET),
+            Number("long_peak", boxed[1].metrics["tip_peak"], "m", "peak, no fault, 400 s, boxed"),
         ),
         decide(all(saved), any(saved)),
         f"{saved.count(True)} of 2 come to their end that did not; the peaks are "

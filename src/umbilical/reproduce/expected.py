@@ -22,18 +22,17 @@ TOLERANCES: dict[Kind, tuple[str, float, str]] = {
     Kind.SAMPLED: ("relative", 0.05, "at the preset's period of 1 ms; it is proportional to the period"),
     Kind.FRONT: (
         "relative",
-        0.4,
-        "a wave front that no grid resolves; half the step on 96 elements moves it by a third",
+        0.1,
+        "a wave front is in it; half the step and period on 96 elements move it by 4 per cent",
     ),
     Kind.COUNT: ("absolute", 5.0, "cells on the edge of stability fall to either side"),
     Kind.SHARE: ("absolute", 0.03, "cells in which both arms are nearly equal fall to either side"),
     Kind.INSTANT: (
         "relative",
-        0.35,
-        "grows from what little a discretisation leaves; half the step moves it by a quarter",
+        0.2,
+        "an instability grows from almost nothing; half the step and period move it by a tenth",
     ),
     Kind.EDGE: ("relative", 0.03, "an edge of stability, found by bisection or between points of a scan"),
-    Kind.RATCHET: ("relative", 0.05, "400 s without the observer; half the step moves it by two per cent"),
 }
 """How far a number of each kind may move, and why so far."""
 

@@ -37,7 +37,6 @@ class Kind(Enum):
     SHARE = "share"
     INSTANT = "instant"
     EDGE = "edge"
-    RATCHET = "ratchet"
 
 
 class Number(NamedTuple):

@@ -100,7 +100,7 @@ def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> 
     data = picture.data(runs, slices)
     figure = picture.draw(data)
     figure.draw_without_rendering()
-    figure.set_layout_engine("none")  # laid out once; the three renderings then only draw
+    figure.set_layout_engine(None)  # laid out once; the three renderings then only draw
     contents = {
         "png": render(figure, "png", dpi=RESOLUTION),
         "pdf": render(figure, "pdf", dpi=RESOLUTION),
