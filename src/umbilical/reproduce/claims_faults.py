@@ -94,9 +94,9 @@ def c7a(evidence: Evidence) -> Finding:
         tuple(numbers),
         decide(bool(lost)),
         f"{'Lost: ' + ', '.join(lost) if lost else 'None does'}; the peaks after the fault are {_list(peaks)} m. The "
-        "disturbance observer is driven by the "
-        "commanded thrust, so what the motor fails to deliver looks like a load and is followed (error "
-        f"{percent(seen)}). Without the observer the ROV drifts: {short(abs(blind['tip_end']))} m at the end, dead.",
+        "disturbance observer is driven by the commanded thrust, so what the motor fails to deliver looks like a load "
+        f"and is followed (error {percent(seen)}). Without the observer the ROV drifts: "
+        f"{short(abs(blind['tip_end']))} m at the end, dead.",
         region,
     )
 
@@ -127,9 +127,13 @@ def c7b(evidence: Evidence) -> Finding:
     if evidence.maps:
         counts = {f"{n}_{o}": _lost(evidence, n, o) for n in ("time", "factors", "rates") for o in OBSERVERS}
         numbers += [Number(f"diverged_{n}", c, "1", f"diverged, of {s}", Kind.COUNT) for n, (c, s) in counts.items()]
-        region = "Diverged with fault control, of the runs of each map, with the observer and without it: " + "; ".join(
-            f"map-{n} {counts[f'{n}_on'][0]} and {counts[f'{n}_off'][0]} of {counts[f'{n}_on'][1]}"
-            for n in ("time", "factors", "rates")
+        region = (
+            "Diverged with fault control, of the runs of each map, with the observer and without it: "
+            + "; ".join(
+                f"map-{n} {counts[f'{n}_on'][0]} and {counts[f'{n}_off'][0]} of {counts[f'{n}_on'][1]}"
+                for n in ("time", "factors", "rates")
+            )
+            + "."
         )
     return Finding(
         "C7b",

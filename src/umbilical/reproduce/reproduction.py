@@ -70,10 +70,10 @@ def reproduce(names: Sequence[str] = (), *, maps: bool = True, progress: Progres
     """
     pictures = choose(names, maps=maps)
     mapped = any(picture.mapped for picture in pictures)
-    running, mapping, drawing = parts(progress, [8.0, 60.0 if mapped else 0.0, 10.0])
+    running, mapping, edging, drawing = parts(progress, [8.0, *([60.0, 2.0] if mapped else [0.0, 0.0]), 10.0])
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
     slices = compute_slices(mapping) if mapped else {}
-    findings = () if names else judge(Evidence(runs, slices, find_edges(slices)))
+    findings = () if names else judge(Evidence(runs, slices, find_edges(slices, edging)))
     shown = []
     for picture in pictures:
         shown.append(show(picture, runs, slices))
@@ -87,11 +87,11 @@ def run_experiments(names: Sequence[str], progress: Progress | None = None) -> R
     return dict(zip(names, in_parallel(simulate, scenarios, progress), strict=True))
 
 
-def find_edges(slices: Mapping[str, xarray.Dataset]) -> dict[str, float]:
+def find_edges(slices: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> dict[str, float]:
     """Edges of stability, and whether three grids agree on the first."""
     if not slices:
         return {}
-    found = regions.edges(slices["gain"])
+    found = regions.edges(slices["gain"], progress)
     return {**found, EDGE: float(regions.same_on_grids(found["without, on"], "without", "on"))}
 
 
