@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from umbilical import load, open_run, preset_names
-from umbilical.cli.inventory import inventory
+from umbilical.scenario.inventory import inventory
 
 
 def test_show_a_result(umbilical, stored):

@@ -11,7 +11,9 @@ from pathlib import Path
 
 from assumed import assumed
 from command_line import command_line
+from errata import errata
 from notation import notation
+from paper import paper
 from scenario import scenario
 
 from umbilical.scenario.document import schema_text
@@ -23,6 +25,8 @@ PAGES: dict[str, Callable[[], str]] = {
     "scenario.md": scenario,
     "assumed.md": assumed,
     "cli.md": command_line,
+    "errata.md": errata,
+    "paper.md": paper,
     "scenario.schema.json": schema_text,
 }
 

@@ -28,6 +28,8 @@ WORDS_WIDTH = 0.3
 """Share of the time axis that the name of an event takes at most."""
 PLAIN_POWERS = (-4, 5)
 """Powers of ten between which ticks are written out."""
+CLOCKS: dict[str, dict[str, None]] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
+"""Kinds of picture, and what each must not say about when and with what it was made."""
 ONE_ROW = 4
 """Names in one row of a legend; it stands above the axes, where no curve is."""
 
@@ -61,22 +63,29 @@ def as_figure(drawn: Axes | Figure) -> Figure:
     return figure
 
 
+def render(figure: Figure, kind: str, *, dpi: int = 150) -> bytes:
+    """A figure as ``png``, ``pdf`` or ``svg``: fonts inside, no clock, so that equal figures give equal bytes.
+
+    An SVG has no background: it lies on whatever page it is put on.
+    """
+    from matplotlib import rc_context
+
+    picture = io.BytesIO()
+    with rc_context({"svg.hashsalt": "umbilical", "pdf.fonttype": 42}):
+        figure.savefig(picture, format=kind, dpi=dpi, metadata=CLOCKS[kind], transparent=kind == "svg")
+    return picture.getvalue()
+
+
 def save_figure(figure: Figure, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-    """Store a figure as ``.png``, ``.pdf`` or ``.svg``; whole or not at all, with no clock inside.
+    """Store a figure as ``.png``, ``.pdf`` or ``.svg``; whole or not at all.
 
     Raises:
         OutputError: another ending, or the file cannot be written.
     """
-    clocks = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
     kind = Path(path).suffix.lower().removeprefix(".")
-    if kind not in clocks:
-        raise OutputError(f"{path}: a picture's name must end with {', '.join('.' + k for k in clocks)}")
-    from matplotlib import rc_context
-
-    picture = io.BytesIO()
-    with rc_context({"svg.hashsalt": "umbilical"}):
-        figure.savefig(picture, format=kind, dpi=150, metadata=clocks[kind])
-    return files.write(path, picture.getvalue(), force=force)
+    if kind not in CLOCKS:
+        raise OutputError(f"{path}: a picture's name must end with {', '.join('.' + k for k in CLOCKS)}")
+    return files.write(path, render(figure, kind), force=force)
 
 
 def axis_label(array: xarray.DataArray) -> str:

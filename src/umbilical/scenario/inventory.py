@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from umbilical.cli.speech import shown_unit
 from umbilical.scenario.base import Record
 from umbilical.scenario.fields import word
 from umbilical.scenario.scenario import Scenario
@@ -15,13 +14,26 @@ _ELSEWHERE = ("schema_version", "name", "description", "assumed")
 
 
 class Entry(NamedTuple):
-    """One value: dotted key, TOML text, unit, meaning, and whether it is marked *assumed*."""
+    """One value of a scenario.
+
+    Attributes:
+        key, value: dotted key, and the value as TOML writes it.
+        unit, symbol, meaning, source: its words; the unit of a pure number is empty.
+        reason: why it is what it is, where no source gives it (marked *assumed*, itself or a table it is in).
+    """
 
     key: str
     value: str
     unit: str
     meaning: str
-    assumed: bool
+    symbol: str
+    source: str
+    reason: str
+
+    @property
+    def assumed(self) -> bool:
+        """Whether no source gives it."""
+        return bool(self.reason)
 
 
 def inventory(scenario: Scenario) -> list[Entry]:
@@ -38,14 +50,15 @@ def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[En
     for name, field in type(record).model_fields.items():
         value, key = getattr(record, name), path + name
         if isinstance(value, Record):
-            if value != field.get_default(call_default_factory=True) or _is_marked(key, marks):
+            if value != field.get_default(call_default_factory=True) or _mark(key, marks):
                 yield from _entries(value, key + ".", marks)
         elif _is_list_of_tables(value):
             for number, item in enumerate(value, start=1):
                 yield from _entries(item, f"{key}.{number}.", marks)
         elif value not in (None, (), ""):
-            unit, text = shown_unit(word(field, "unit")), literal(_data(value))
-            yield Entry(key, text, unit, field.description or "", _is_marked(key, marks))
+            unit, symbol, source = (word(field, name) for name in ("unit", "symbol", "source"))
+            text, meaning = literal(_data(value)), field.description or ""
+            yield Entry(key, text, "" if unit == "1" else unit, meaning, symbol, source, _mark(key, marks))
 
 
 def _is_list_of_tables(value: Any) -> bool:
@@ -56,7 +69,7 @@ def _data(value: Any) -> Any:
     return list(value) if isinstance(value, tuple) else value
 
 
-def _is_marked(key: str, marks: Mapping[str, str]) -> bool:
-    """Whether the key, or a table it is in, is marked."""
+def _mark(key: str, marks: Mapping[str, str]) -> str:
+    """The reason a key, or a table it is in, is marked with; empty where it is not."""
     steps = key.split(".")
-    return any(".".join(steps[:count]) in marks for count in range(1, len(steps) + 1))
+    return next((marks[k] for n in range(len(steps), 0, -1) if (k := ".".join(steps[:n])) in marks), "")

@@ -1,0 +1,112 @@
+"""``umbilical reproduce``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from typer import Argument, BadParameter, Option
+
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
+from umbilical.errors import OutputError
+
+if TYPE_CHECKING:
+    from umbilical.reproduce import Reproduction
+    from umbilical.reproduce.expected import Deviation
+
+
+def reproduce(
+    figures: Annotated[list[str] | None, Argument(metavar="[FIGURE]...", help="Only these, e.g. fig6 kappa.")] = None,
+    out: Annotated[Path, Option("--out", metavar="DIR", help="Folder for the files; made if missing.")] = Path("paper"),
+    maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2000 runs.")] = True,
+    check: Annotated[bool, Option("--check", help="Exit with 7 if a published number or verdict has moved.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Reproduce the paper: every figure with its data, every claim with a verdict, one report.
+
+    \b
+    examples
+      umbilical reproduce --out paper
+      umbilical reproduce --no-maps --check --json
+      umbilical reproduce fig6 kappa --out figures
+
+    Each figure is written as .png and .pdf, its data as .nc and .csv. The report, report.html, opens in any browser
+    without a network. With figures named there is no ledger and no report.
+    """
+    names = check_names(figures or [])
+    from umbilical.cli.progress import announce_compilation, bar
+    from umbilical.reproduce import reproduction
+    from umbilical.reproduce.article import article
+    from umbilical.reproduce.expected import deviations
+
+    make_room(out, reproduction.targets(reproduction.choose(names, maps=maps), out, report=not names), force=force)
+    announce_compilation()
+    with bar("reproducing the paper") as advance:
+        found = reproduction.reproduce(names, maps=maps, progress=advance)
+    moved = deviations(found.findings, complete=maps) if found.findings else []
+    written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
+    if as_json:
+        say_json(document(found, moved, written))
+    else:
+        say(summary(found, out, written))
+    for one in moved:
+        tell(f"not as published: {one}")
+    return DOES_NOT_HOLD if check and moved else 0
+
+
+def check_names(names: list[str]) -> list[str]:
+    """The figures asked for; refused all at once if some are not there."""
+    from umbilical.reproduce import PICTURES
+
+    unknown = [name for name in names if name not in PICTURES]
+    if unknown:
+        raise BadParameter(f"no figure {', '.join(unknown)}; there are {', '.join(PICTURES)}", param_hint="FIGURE")
+    return names
+
+
+def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
+    """Make the folder; refuse what could not be written later.
+
+    Raises:
+        OutputError: the folder cannot be made, or holds files of these names.
+    """
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: the folder cannot be made ({error.strerror})") from error
+    there = [target.name for target in targets if target.exists()]
+    if there and not force:
+        more = f" and {len(there) - 3} more" if len(there) > 3 else ""
+        raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")
+
+
+def summary(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
+    """The ledger, and where the files are."""
+    from umbilical.reproduce.reproduction import KINDS
+
+    lines = [
+        f"{f.id:<4} {f.statement}\n     {f.conclusion[0].upper() + f.conclusion[1:]}. {f.because}"
+        for f in found.findings
+    ]
+    lines.append(f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}")
+    return "\n".join([*lines, *([f"report: {written['report']}"] if "report" in written else [])])
+
+
+def document(found: Reproduction, moved: list[Deviation], written: dict[str, Any]) -> dict[str, Any]:
+    """A reproduction as ``--json`` prints it."""
+    claims = [
+        {
+            "id": f.id,
+            "statement": f.statement,
+            "verdict": f.verdict.value,
+            "when": f.when if f.conclusion != f.verdict.value else "",
+            "because": f.because,
+            "region": f.region,
+            "measure": f.measure,
+            "numbers": {n.name: {"value": n.value, "unit": n.unit, "meaning": n.meaning} for n in f.numbers},
+        }
+        for f in found.findings
+    ]
+    runs = {name: {"status": run.status.name, "scenario_hash": run.scenario.hash} for name, run in found.runs.items()}
+    return {"claims": claims, "not_as_published": [one._asdict() for one in moved], "runs": runs, "files": written}

@@ -1,0 +1,86 @@
+"""Maps: the peak of the ROV after a fault over two numbers, without and with fault control."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.plots.paper.style import TYPE, column, letter, log_axis, unit_label
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.collections import QuadMesh
+    from matplotlib.colors import LogNorm
+    from matplotlib.figure import Figure
+
+LOST = "#404040"
+
+
+def draw_map(data: xarray.Dataset) -> Figure:
+    """``peak`` over ``observer``, ``arm``, and the two dimensions named in ``data.attrs``.
+
+    Dark cells diverged; dots on the right mark where fault control lowers the peak; the cross is the preset.
+    """
+    observers, arms = data["observer"].values, data["arm"].values
+    figure, panels = column(len(observers), 1.6, len(arms))
+    for row, observer in enumerate(observers):
+        own = panels[row * len(arms) : (row + 1) * len(arms)]
+        _row(figure, own, data, str(observer))
+        for place, (ax, arm) in enumerate(zip(own, arms, strict=True)):
+            _labels(ax, data, f"{letter(row * len(arms) + place)} {arm}", place == 0, row == len(observers) - 1)
+    figure.supxlabel(_axis(data[data.attrs["x"]]), fontsize=TYPE)
+    return figure
+
+
+def _row(figure: Figure, panels: list[Axes], data: xarray.Dataset, observer: str) -> None:
+    """The arms beside each other in one scale of colours."""
+    from matplotlib.colors import LogNorm
+
+    peaks = data["peak"].sel(observer=observer)
+    norm = LogNorm(vmin=float(np.nanmin(peaks)), vmax=float(np.nanmax(peaks)))
+    pictures = [_cells(ax, peaks.sel(arm=arm), data, norm) for ax, arm in zip(panels, data["arm"].values, strict=True)]
+    _better(panels[-1], peaks, data)
+    bar = figure.colorbar(pictures[0], ax=panels, pad=0.02)
+    bar.set_label(f"observer {observer}: {unit_label(data['peak'])}", fontsize=TYPE)
+    bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
+    log_axis(bar.ax.yaxis)
+
+
+def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNorm) -> QuadMesh:
+    from matplotlib import colormaps
+
+    x, y = data.attrs["x"], data.attrs["y"]
+    values = np.ma.masked_invalid(peaks.transpose(y, x).values)
+    colours = colormaps["viridis"].with_extremes(bad=LOST)
+    look = {"cmap": colours, "norm": norm, "shading": "nearest", "rasterized": True}
+    picture = ax.pcolormesh(data[x], data[y], values, **look)
+    ax.set_xscale(data[x].attrs["scale"])
+    ax.set_yscale(data[y].attrs["scale"])
+    for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
+        if data[name].attrs["scale"] == "log":
+            log_axis(axis)
+    ax.plot(data.attrs["paper_x"], data.attrs["paper_y"], "+", color="white", markersize=5, markeredgewidth=1.0)
+    return picture
+
+
+def _better(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset) -> None:
+    """Dots where fault control is the better one."""
+    x, y = data.attrs["x"], data.attrs["y"]
+    without, with_control = (peaks.sel(arm=arm).transpose(y, x).values for arm in ("without", "with"))
+    better = (with_control < without) | (np.isnan(without) & ~np.isnan(with_control))
+    rows, columns = np.nonzero(better)
+    ax.plot(data[x].values[columns], data[y].values[rows], ".", color="white", markersize=1.2)
+
+
+def _labels(ax: Axes, data: xarray.Dataset, title: str, leftmost: bool, lowest: bool) -> None:
+    ax.set_title(title, fontsize=TYPE, loc="left", pad=3)
+    ax.tick_params(labelsize=TYPE - 1, length=2, pad=2, labelleft=leftmost, labelbottom=lowest)
+    if leftmost:
+        ax.set_ylabel(_axis(data[data.attrs["y"]]), fontsize=TYPE)
+
+
+def _axis(array: xarray.DataArray) -> str:
+    unit = array.attrs["units"]
+    return array.attrs["long_name"] + (f" [{unit}]" if unit != "1" else "")

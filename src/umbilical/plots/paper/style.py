@@ -1,0 +1,142 @@
+"""What the figures of a paper share: one column's width, small type, one look for each line, panels with letters."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from umbilical.plots.figure import COLOURS, QUIET, axis_label, new_figure
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+COLUMN_WIDTH = 85.0 / 25.4
+"""Inches; one column of a page of A4 with two."""
+TYPE = 7.0
+"""Points, when the figure is printed as wide as it is."""
+RESOLUTION = 300
+"""Dots per inch of a PNG."""
+
+
+class Look(NamedTuple):
+    """How one line is drawn, and its name in a legend. Colour never is the only difference."""
+
+    words: str
+    colour: str
+    dashes: tuple[float, ...] = ()
+    width: float = 1.0
+
+
+LOOKS = {
+    "none": Look("no control", COLOURS[6], (1, 1)),
+    "pd": Look("PD", COLOURS[1], (4, 1.5)),
+    "proposed": Look("proposed", COLOURS[0]),
+    "without": Look("without fault control", COLOURS[0]),
+    "with": Look("with fault control", COLOURS[1], (4, 1.5)),
+    "truth": Look("actual", COLOURS[0]),
+    "estimate": Look("estimated", COLOURS[1], (4, 1.5)),
+    "load": Look("load $d$", COLOURS[2], (1, 1)),
+    "ideal": Look("ideal", COLOURS[6], (1, 1), 0.8),
+    "boxed": Look("with it, in a box", COLOURS[2], (6, 1.5, 1, 1.5)),
+    "fast": Look("with it, ten times faster", COLOURS[3], (2, 1)),
+}
+"""Every kind of line by the name its data give it."""
+
+
+def column(rows: int, height: float, columns: int = 1) -> tuple[Figure, list[Axes]]:
+    """A figure as wide as a column, with panels row by row; ``height`` of one row in inches."""
+    figure = new_figure(COLUMN_WIDTH, rows * height + 0.25)
+    engine = figure.get_layout_engine()
+    assert engine is not None
+    engine.set(w_pad=0.02, h_pad=0.02, hspace=0.02, wspace=0.02)  # type: ignore[call-arg]
+    panels = figure.subplots(rows, columns, squeeze=False)
+    return figure, list(panels.ravel())
+
+
+def line(ax: Axes, array: xarray.DataArray, who: str, words: str | None = None) -> None:
+    """One array over time in the look of ``who``; it is named in the legend, unless ``words`` is empty."""
+    look = LOOKS[who]
+    name = look.words if words is None else words
+    (drawn,) = ax.plot(array["time"].values, array.values, color=look.colour, linewidth=look.width, label=name or None)
+    if look.dashes:
+        drawn.set_dashes(look.dashes)
+
+
+def panel(ax: Axes, title: str, ylabel: str, xlabel: str = "") -> None:
+    """Title at the left, labels, ticks and grid in the type of the page."""
+    ax.set_title(title, fontsize=TYPE, loc="left", pad=3)
+    ax.set_ylabel(ylabel, fontsize=TYPE)
+    ax.set_xlabel(xlabel, fontsize=TYPE)
+    ax.tick_params(labelsize=TYPE - 0.5, length=2, pad=2)
+    ax.grid(alpha=0.25, linewidth=0.4)
+    ax.spines[["top", "right"]].set_visible(False)
+    for side in ("left", "bottom"):
+        ax.spines[side].set_linewidth(0.6)
+
+
+def time_panels(panels: Sequence[Axes], data: xarray.Dataset, *, marked: bool = True) -> None:
+    """Panels over the same time: one axis of time at the bottom; the fault, if any, is marked in all or in none."""
+    time = data["time"]
+    for ax in panels:
+        ax.set_xlim(float(time[0]), float(time[-1]))
+        if marked and "fault_time" in data.attrs:
+            mark_fault(ax, float(data.attrs["fault_time"]))
+        if ax is not panels[-1]:
+            ax.tick_params(labelbottom=False)
+    panels[-1].set_xlabel(f"{time.attrs['long_name']} [{time.attrs['units']}]", fontsize=TYPE)
+
+
+def mark_fault(ax: Axes, instant: float) -> None:
+    """The instant a motor fails."""
+    ax.axvline(instant, color=QUIET, linewidth=0.7, linestyle="--", zorder=0.5)
+    ax.annotate(
+        "fault",
+        (instant, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(2, -1),
+        textcoords="offset points",
+        va="top",
+        fontsize=TYPE - 1,
+        color=QUIET,
+    )
+
+
+def legend(figure: Figure, ax: Axes, columns: int = 3) -> None:
+    """The names of the lines of one panel above the whole figure, where no curve is."""
+    figure.legend(
+        *ax.get_legend_handles_labels(),
+        loc="outside upper center",
+        ncols=columns,
+        fontsize=TYPE,
+        frameon=False,
+        borderpad=0.1,
+        handlelength=2.2,
+        columnspacing=1.2,
+    )
+
+
+def letter(number: int) -> str:
+    """(a), (b), ... of panel 0, 1, ..."""
+    return f"({chr(ord('a') + number)})"
+
+
+def unit_label(array: xarray.DataArray) -> str:
+    """Symbol and unit, from the data."""
+    return axis_label(array)
+
+
+def log_axis(axis: Axis) -> None:
+    """A logarithmic axis with few ticks: plain 1, 2 and 5 over less than two decades, else powers of ten."""
+    from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullLocator
+
+    low, high = sorted(axis.get_view_interval())
+    axis.set_minor_locator(NullLocator())
+    if high < 100.0 * low:
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter("{x:g}")
+    else:
+        axis.set_major_locator(LogLocator(numticks=6))
+        axis.set_major_formatter(LogFormatterSciNotation())

@@ -1,0 +1,163 @@
+"""The report of a reproduction: what was run, the ledger, the figures, the assumptions, the errata, the versions."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+
+from umbilical.report import (
+    Html,
+    Section,
+    assumed_table,
+    drawing,
+    element,
+    given_table,
+    join,
+    link,
+    page,
+    paragraph,
+    prose,
+    runs_table,
+    table,
+    versions_table,
+)
+from umbilical.reproduce.errata import errata
+from umbilical.reproduce.expected import Deviation
+from umbilical.reproduce.experiments import EXPERIMENTS, cell
+from umbilical.reproduce.figures import SOURCE
+from umbilical.reproduce.ledger import Finding, Verdict
+from umbilical.reproduce.points import GRID
+from umbilical.reproduce.reproduction import KINDS, Reproduction
+
+CLASSES = {Verdict.HOLDS: "holds", Verdict.CONDITIONAL: "part", Verdict.FAILS: "fails"}
+
+
+def article(found: Reproduction, moved: list[Deviation]) -> str:
+    """The report as one HTML document.
+
+    Args:
+        found: the reproduction, with its ledger.
+        moved: what is not as published.
+    """
+    sections = (
+        Section("ledger", "Claims", _ledger(found.findings)),
+        Section("figures", "Figures", _figures(found)),
+        Section("given", "What the paper gives", _given(found)),
+        Section("assumed", "What is assumed", _assumed(found)),
+        Section("runs", "What was run", _runs(found)),
+        Section("errata", "Errata", _errata()),
+        Section("versions", "Versions", versions_table()),
+    )
+    return page(
+        "Vibration cascade control of a cable and its ROV: the paper, reproduced", _lead(found, moved), sections
+    )
+
+
+def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
+    count = Counter(finding.verdict for finding in found.findings)
+    told = (
+        f"Of {len(found.findings)} statements {count[Verdict.HOLDS]} hold, {count[Verdict.CONDITIONAL]} under a "
+        "condition; "
+        f"not reproduced: {count[Verdict.FAILS]}."
+    )
+    check = "Every number is as published, within its tolerance." if not moved else "Not as published:"
+    return join(
+        [
+            paragraph(
+                "Of ",
+                SOURCE,
+                ". Made by ",
+                element("code", "umbilical reproduce"),
+                "; every number and every verdict is computed.",
+            ),
+            paragraph(told, " ", check),
+            *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),
+            *([] if found.maps else [paragraph("The maps were left out (--no-maps): verdicts rest on single runs.")]),
+        ]
+    )
+
+
+def _ledger(findings: tuple[Finding, ...]) -> Html:
+    rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
+    return join([table(("claim", "statement", "verdict"), rows, caption="The ledger"), *map(_claim, findings)])
+
+
+def _verdict(finding: Finding) -> Html:
+    return element("span", finding.conclusion, class_=f"verdict {CLASSES[finding.verdict]}")
+
+
+def _claim(finding: Finding) -> Html:
+    rows = [(n.meaning, f"{n.value:.4g}", "" if n.unit == "1" else n.unit) for n in finding.numbers]
+    numbers = table(("number", "value", "unit"), rows, numbers=(1,))
+    return element(
+        "article",
+        element("h3", f"{finding.id}. {finding.statement}"),
+        paragraph("Verdict: ", _verdict(finding), ". ", finding.because),
+        paragraph(element("b", "Where. "), finding.region),
+        paragraph(element("b", "Measure. "), finding.measure, class_="quiet"),
+        element("details", element("summary", f"{len(rows)} numbers"), numbers),
+        class_="claim",
+        id=finding.id,
+    )
+
+
+def _figures(found: Reproduction) -> Html:
+    coarse = paragraph(
+        f"Maps run on {GRID['grid.elements']} elements, figures and all other numbers on the grid of their preset; the "
+        "tests compare both.",
+        class_="quiet",
+    )
+    drawn = [
+        drawing(
+            one.svg,
+            one.picture.name,
+            one.picture.title,
+            one.picture.caption,
+            [f"{one.picture.name}.{kind}" for kind in KINDS],
+        )
+        for one in found.shown
+    ]
+    return join([coarse, element("div", *drawn, class_="figures")])
+
+
+def _given(found: Reproduction) -> Html:
+    runs = found.runs
+    fault = ("faults.1.start",)
+    gains = ("control.law.position_gain", "control.law.velocity_gain")
+    return join(
+        [
+            given_table(
+                runs[cell("none", "without")].scenario,
+                "Table 2 and section 4 of the paper, with our correction of units",
+            ),
+            given_table(runs["pd"].scenario, "Gains of the PD baseline", gains),
+            given_table(runs[cell("stuck", "with")].scenario, "The fault", fault),
+        ]
+    )
+
+
+def _assumed(found: Reproduction) -> Html:
+    scenario = found.runs[cell("stuck", "with")].scenario
+    words = paragraph("What the paper does not print had to be chosen. The reasons are those of the presets.")
+    return join([words, assumed_table(scenario, "Assumed for a stuck motor with fault control, which has them all")])
+
+
+def _runs(found: Reproduction) -> Html:
+    return runs_table(list(_rows(found)), "Experiments; an empty column of changes means the preset as it is")
+
+
+def _rows(found: Reproduction) -> Iterator[tuple]:
+    for name, run in found.runs.items():
+        experiment = EXPERIMENTS[name]
+        changes = ", ".join(f"{key} = {json.dumps(value)}" for key, value in experiment.changes.items())
+        yield experiment.what, experiment.preset, changes, run
+
+
+def _errata() -> Html:
+    intro, sections = errata()
+    tables = [
+        table(("where", "printed", "ours", "why"), [tuple(map(prose, entry)) for entry in entries], caption=title)
+        for title, entries in sections.items()
+    ]
+    return join([*(paragraph(prose(part)) for part in intro.split("\n\n")), *tables])

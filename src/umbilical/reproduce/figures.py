@@ -1,0 +1,214 @@
+"""The catalogue of figures: name, caption, the data behind each and how they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from umbilical import __version__
+from umbilical.plots import paper
+from umbilical.reproduce import datasets
+from umbilical.reproduce.experiments import ARMS, CASES, EXPERIMENTS, Runs, cell
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.figure import Figure
+
+SOURCE = "Rao, Wang, Du, J. Mar. Sci. Eng. 2022, 10(11), 1772, doi 10.3390/jmse10111772"
+THREE = tuple(datasets.CONTROLLERS.values())
+HEALTHY = (cell("none", "without"),)
+STUCK = tuple(cell(case, arm) for case in ("none", "stuck") for arm in ARMS)
+FAILED = tuple(cell(case, arm) for arm in ARMS for case in ("dead", "stuck"))
+
+
+@dataclass(frozen=True)
+class Picture:
+    """One figure.
+
+    Attributes:
+        name: of its files, and on the command line.
+        title: the paper's number, or what it is; empty number for ours.
+        caption: what is seen.
+        draw: from its dataset to a figure.
+        experiments: names of the runs it is made from.
+        collect: from these runs to its dataset; None where it shows a map, whose dataset has the figure's name.
+        faulty: experiment whose fault is marked.
+    """
+
+    name: str
+    title: str
+    caption: str
+    draw: Callable[[xarray.Dataset], Figure]
+    experiments: tuple[str, ...] = ()
+    collect: Callable[[Runs], xarray.Dataset] | None = None
+    faulty: str = ""
+
+    @property
+    def mapped(self) -> bool:
+        """Whether it needs the maps."""
+        return self.collect is None
+
+    def data(self, runs: Runs, maps: Mapping[str, xarray.Dataset]) -> xarray.Dataset:
+        """The dataset behind it, with title, source and the fault it marks."""
+        found = maps[self.name] if self.collect is None else self.collect(runs)
+        marks: dict[str, Any] = datasets.about_fault(runs[self.faulty]) if self.faulty else {}
+        about = {"title": f"{self.title}: {self.caption}", "source": SOURCE, "version_umbilical": __version__}
+        return found.assign_attrs({**about, **marks})
+
+
+_ALL = (
+    Picture(
+        "fig3",
+        "Fig. 3",
+        "Displacement at l/4, l/2, 3l/4 and l without control, with PD and with the proposed law, which is the line "
+        "at zero.",
+        paper.draw_positions,
+        THREE,
+        datasets.positions,
+    ),
+    Picture(
+        "fig4",
+        "Fig. 4",
+        "Size of the displacement at the midpoint; logarithmic, so that all three controllers show.",
+        paper.draw_midpoint,
+        THREE,
+        datasets.midpoint,
+    ),
+    Picture(
+        "fig5",
+        "Fig. 5",
+        "ROV velocity x2 and slope rate z2 with the estimates of the high-gain observers; proposed law, no fault.",
+        paper.draw_states,
+        HEALTHY,
+        datasets.states,
+    ),
+    Picture(
+        "fig6",
+        "Fig. 6",
+        "The ROV (a) after a fault of motor 2, three kinds of it, and (b) without a fault, without and with fault "
+        "control.",
+        paper.draw_boundary,
+        tuple(cell(case, arm) for case in CASES for arm in ARMS),
+        datasets.boundary,
+        cell("stuck", "with"),
+    ),
+    Picture(
+        "fig7",
+        "Fig. 7",
+        "Motor speeds (a) with motor 2 stuck from 10 s on and (b) without a fault. The fault acts on the thrust: the "
+        "motor still turns.",
+        paper.draw_speeds,
+        STUCK,
+        datasets.speeds,
+        cell("stuck", "with"),
+    ),
+    Picture(
+        "fig8",
+        "Fig. 8",
+        "Motor voltages (a) with motor 2 stuck from 10 s on and (b) without a fault.",
+        paper.draw_voltages,
+        STUCK,
+        datasets.voltages,
+        cell("stuck", "with"),
+    ),
+    Picture(
+        "fig9",
+        "Fig. 9",
+        "What the controller sees as disturbance of the ROV, and the voltage disturbance of each motor, with "
+        "estimates.",
+        paper.draw_disturbances,
+        HEALTHY,
+        datasets.disturbances,
+    ),
+    Picture(
+        "spacetime",
+        "The cable over time",
+        "Displacement of the whole cable, vessel at the top; each panel has its own scale.",
+        paper.draw_spacetime,
+        THREE,
+        datasets.spacetime,
+    ),
+    Picture(
+        "energy",
+        "Power balance",
+        "Energy of cable and ROV, and the work on it since the start.",
+        paper.draw_energy,
+        THREE,
+        datasets.balance,
+    ),
+    Picture(
+        "lyapunov",
+        "V(t)",
+        "The Lyapunov function of the proof along two runs. It falls between pushes of the load; V3 jumps at the "
+        "fault, "
+        "because D does.",
+        paper.draw_lyapunov,
+        (cell("none", "without"), cell("dead", "without")),
+        datasets.lyapunov_parts,
+        cell("dead", "without"),
+    ),
+    Picture(
+        "kappa",
+        "kappa(t)",
+        "The adaptive allocation: kappa_0 and the sum of the offsets, with the values that would deliver what is "
+        "commanded.",
+        paper.draw_kappa,
+        FAILED,
+        datasets.kappa,
+        cell("dead", "with"),
+    ),
+    Picture(
+        "absorption",
+        "Why nothing diverges",
+        "After a fault, without fault control: the estimate follows load and lost thrust together.",
+        paper.draw_absorption,
+        FAILED,
+        datasets.absorption,
+        cell("dead", "without"),
+    ),
+    Picture(
+        "adaptation",
+        "Where adaptation helps and harms",
+        "Motor 2 dead, no disturbance observer. The adaptive law helps; ten times faster it runs away (the line "
+        "ends); in "
+        "a box it does not.",
+        paper.draw_adaptation,
+        tuple(datasets.ADAPTATION.values()),
+        datasets.adaptation,
+        "blind, dead, with",
+    ),
+    Picture(
+        "gain",
+        "Where the loop runs away",
+        "Peak of the ROV over the gain of the allocation at the start, without and with fault control; crosses at the "
+        "top: diverged.",
+        paper.draw_gain,
+    ),
+    Picture(
+        "map-time",
+        "Loss of thrust by the instant of the fault",
+        "Peak of the ROV after the fault. Dots: fault control is better; dark: diverged; cross: the preset.",
+        paper.draw_map,
+    ),
+    Picture(
+        "map-factors",
+        "Stuck value by the error of the known factors",
+        "Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal.",
+        paper.draw_map,
+    ),
+    Picture(
+        "map-rates",
+        "Start of the adaptation by its rate",
+        "Peak of the ROV after motor 2 has died. Without fault control nothing adapts, so all cells are equal.",
+        paper.draw_map,
+    ),
+)
+PICTURES: dict[str, Picture] = {picture.name: picture for picture in _ALL}
+"""Every figure by name, in the order of the report."""
+
+
+def needed(pictures: tuple[Picture, ...]) -> tuple[str, ...]:
+    """Names of the experiments behind some figures, in the order of the catalogue."""
+    wanted = {name for picture in pictures for name in picture.experiments} | {p.faulty for p in pictures if p.faulty}
+    return tuple(name for name in EXPERIMENTS if name in wanted)

@@ -1,0 +1,67 @@
+"""Single runs of a map: only the peak is kept, and each distinct one is made once.
+
+Thousands of runs, so on a coarser grid than the figures: :data:`GRID`. With the paper's ``beta`` the ROV hardly
+feels the grid; tests/reproduce compare coarse peaks with those of the default grid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+from umbilical.admission import load
+from umbilical.engine.simulate import simulate
+from umbilical.reproduce.experiments import BELIEVED, OBSERVER, START, preset
+from umbilical.reproduce.work import Progress, in_parallel
+from umbilical.run import Status
+
+GRID: dict[str, Any] = {"grid.elements": 8, "output.interval": 50.0}
+FACTORS = (1.2, 0.8)
+"""True thrust factors of the presets, N s2/rad2."""
+Changes = Mapping[str, Any]
+
+
+class Point(NamedTuple):
+    """One run of a map, so written that equal runs are equal."""
+
+    preset: str
+    changes: tuple[tuple[str, Any], ...]
+
+
+class Outcome(NamedTuple):
+    """What is kept of it: the peak (m; not a number where the run diverged), and when it ended (s)."""
+
+    peak: float
+    end: float
+
+
+def make_point(name: str, observer: str, changes: Changes) -> Point:
+    """A run of a preset with the disturbance observer ``on`` or ``off`` and some changes."""
+    return Point(name, tuple(sorted({OBSERVER: observer == "on", **changes}.items())))
+
+
+def gain_point(observer: str, case: str, arm: str, gain: float) -> Point:
+    """The allocation at ``gain`` times its exact gain: by the believed factors, or the start of the adaptation."""
+    if arm == "with":
+        return make_point(preset(case, arm), observer, {START: (gain / sum(FACTORS), 0.0, 0.0)})
+    return make_point(preset(case, arm), observer, {BELIEVED: tuple(k / gain for k in FACTORS)})
+
+
+def run_points(points: Iterable[Point], progress: Progress | None = None, grid: Changes = GRID) -> dict[Point, Outcome]:
+    """Outcome of every distinct point, on all cores.
+
+    Args:
+        points: what to run.
+        progress: called with the share done, 0 to 1.
+        grid: the discretisation, by dotted key.
+    """
+    distinct = list(dict.fromkeys(points))
+    bases = {name: load(name, grid) for name in sorted({point.preset for point in distinct})}
+
+    def outcome(point: Point) -> Outcome:
+        run = simulate(bases[point.preset].replace(dict(point.changes)))
+        metrics = run.metrics
+        peak = metrics.get("tip_peak_after_fault", metrics["tip_peak"])
+        return Outcome(peak if run.status is Status.COMPLETED else float("nan"), run.end_time)
+
+    return dict(zip(distinct, in_parallel(outcome, distinct, progress), strict=True))

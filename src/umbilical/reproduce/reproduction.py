@@ -1,0 +1,137 @@
+"""The paper, reproduced: runs, maps, figures and verdicts, and the files they are written to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from umbilical import files
+from umbilical.engine.simulate import simulate
+from umbilical.formats import to_netcdf
+from umbilical.plots.figure import render
+from umbilical.plots.paper.style import RESOLUTION
+from umbilical.reproduce import regions
+from umbilical.reproduce.claims import judge
+from umbilical.reproduce.experiments import EXPERIMENTS, Runs
+from umbilical.reproduce.figures import PICTURES, Picture, needed
+from umbilical.reproduce.ledger import Evidence, Finding
+from umbilical.reproduce.slices import compute_slices
+from umbilical.reproduce.tabular import to_csv
+from umbilical.reproduce.work import Progress, in_parallel, parts
+
+if TYPE_CHECKING:
+    import xarray
+
+REPORT = "report.html"
+KINDS = ("png", "pdf", "nc", "csv")
+"""Files of every figure."""
+EDGE = "same on grids"
+
+
+class Shown(NamedTuple):
+    """One figure: what it is, its dataset, its files' contents by ending, and as SVG for the report."""
+
+    picture: Picture
+    data: xarray.Dataset
+    contents: Mapping[str, bytes]
+    svg: bytes
+
+
+class Reproduction(NamedTuple):
+    """Everything that was found; ``findings`` are empty where only some figures were asked for."""
+
+    runs: Runs
+    maps: Mapping[str, xarray.Dataset]
+    shown: tuple[Shown, ...]
+    findings: tuple[Finding, ...]
+
+
+def choose(names: Sequence[str], *, maps: bool) -> tuple[Picture, ...]:
+    """The figures of these names, all if there are none, without those of maps if these are left out.
+
+    Raises:
+        KeyError: there is no such figure.
+    """
+    chosen = [PICTURES[name] for name in names] or list(PICTURES.values())
+    return tuple(picture for picture in chosen if maps or not picture.mapped)
+
+
+def reproduce(names: Sequence[str] = (), *, maps: bool = True, progress: Progress | None = None) -> Reproduction:
+    """Run the paper's experiments and judge its claims.
+
+    Args:
+        names: figures; all of them, and the ledger, if empty.
+        maps: whether to run the thousands of runs behind the maps.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        KeyError: there is no such figure.
+    """
+    pictures = choose(names, maps=maps)
+    mapped = any(picture.mapped for picture in pictures)
+    running, mapping, edging, drawing = parts(progress, [8.0, *([60.0, 2.0] if mapped else [0.0, 0.0]), 10.0])
+    runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
+    slices = compute_slices(mapping) if mapped else {}
+    findings = () if names else judge(Evidence(runs, slices, find_edges(slices, edging)))
+    shown = []
+    for picture in pictures:
+        shown.append(show(picture, runs, slices))
+        drawing(len(shown) / len(pictures))
+    return Reproduction(runs, slices, tuple(shown), findings)
+
+
+def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:
+    """Runs of some experiments, by name."""
+    scenarios = [EXPERIMENTS[name].scenario() for name in names]
+    return dict(zip(names, in_parallel(simulate, scenarios, progress), strict=True))
+
+
+def find_edges(slices: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> dict[str, float]:
+    """Edges of stability, and whether three grids agree on the first."""
+    if not slices:
+        return {}
+    found = regions.edges(slices["gain"], progress)
+    return {**found, EDGE: float(regions.same_on_grids(found["without, on"], "without", "on"))}
+
+
+def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> Shown:
+    """One figure with its data, as the bytes of its files."""
+    data = picture.data(runs, slices)
+    figure = picture.draw(data)
+    figure.draw_without_rendering()
+    figure.set_layout_engine(None)  # laid out once; the three renderings then only draw
+    contents = {
+        "png": render(figure, "png", dpi=RESOLUTION),
+        "pdf": render(figure, "pdf", dpi=RESOLUTION),
+        "nc": to_netcdf(data),
+        "csv": to_csv(data),
+    }
+    return Shown(picture, data, contents, render(figure, "svg", dpi=RESOLUTION // 2))
+
+
+def targets(pictures: Sequence[Picture], folder: Path, *, report: bool) -> list[Path]:
+    """Every file that will be written."""
+    found = [folder / f"{picture.name}.{kind}" for picture in pictures for kind in KINDS]
+    return [*found, folder / REPORT] if report else found
+
+
+def write(
+    found: Reproduction, folder: Path, report: Callable[[Reproduction], str], *, force: bool = False
+) -> dict[str, Any]:
+    """Write figures, data and, if there are findings, the report; paths by figure and kind.
+
+    Raises:
+        OutputError: a file exists and ``force`` is false, or the folder cannot be written to.
+    """
+    written: dict[str, Any] = {"figures": dict(_write_figures(found.shown, folder, force))}
+    if found.findings:
+        written["report"] = str(files.write(folder / REPORT, report(found).encode(), force=force))
+    return written
+
+
+def _write_figures(shown: Sequence[Shown], folder: Path, force: bool) -> Iterator[tuple[str, dict[str, str]]]:
+    for one in shown:
+        name = one.picture.name
+        paths = {k: str(files.write(folder / f"{name}.{k}", c, force=force)) for k, c in one.contents.items()}
+        yield name, paths

@@ -1,0 +1,147 @@
+"""Maps: the peak of the ROV after a fault over two numbers at a time, and over the gain of the allocation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, RATES, START, preset
+from umbilical.reproduce.points import FACTORS, Changes, Outcome, Point, gain_point, make_point, run_points
+from umbilical.reproduce.work import Progress
+
+if TYPE_CHECKING:
+    import xarray
+
+PRESET_RATES = (0.1, 100.0, 100.0)
+Place = tuple[str | float, ...]
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One number that is varied; ``paper`` is its value in the presets."""
+
+    name: str
+    meaning: str
+    values: tuple[float, ...]
+    paper: float
+    unit: str = "1"
+    scale: str = "linear"
+
+    def coordinate(self) -> tuple[str, list[float], dict[str, str]]:
+        """As xarray takes it."""
+        words = {"units": self.unit, "long_name": self.meaning, "scale": self.scale, "symbol": ""}
+        return self.name, list(self.values), words
+
+
+@dataclass(frozen=True)
+class Slice:
+    """Two numbers varied over a fault; ``setting`` says what an arm runs at (x, y), as preset and changes."""
+
+    name: str
+    title: str
+    x: Axis
+    y: Axis
+    setting: Callable[[str, float, float], tuple[str, Changes]]
+
+    def points(self) -> Iterator[tuple[Place, Point]]:
+        """Every place (observer, arm, y, x) with its run."""
+        for observer, arm, y, x in product(OBSERVERS, ARMS, self.y.values, self.x.values):
+            name, changes = self.setting(arm, x, y)
+            yield (self.name, observer, arm, y, x), make_point(name, observer, changes)
+
+
+def _steps(low: float, high: float) -> tuple[float, ...]:
+    return tuple(float(v) for v in np.round(np.linspace(low, high, 15), 10))
+
+
+def _powers(base: float, ratio: float, below: int, count: int = 15) -> tuple[float, ...]:
+    return tuple(float(base * ratio**k) for k in range(-below, count - below))
+
+
+def _failing(arm: str, instant: float, effectiveness: float) -> tuple[str, Changes]:
+    return preset("partial", arm), {"faults.1.start": instant, "faults.1.effectiveness": effectiveness}
+
+
+def _stuck(arm: str, ratio: float, value: float) -> tuple[str, Changes]:
+    """Fault control uses no factors, so the ratio means nothing to it and one run serves a whole row."""
+    believed = {BELIEVED: tuple(k * ratio for k in FACTORS)} if arm == "without" else {}
+    return preset("stuck", arm), {"faults.1.value": value, **believed}
+
+
+def _adapting(arm: str, factor: float, start: float) -> tuple[str, Changes]:
+    """Without fault control nothing adapts: one run serves the whole map."""
+    changes = {RATES: tuple(k * factor for k in PRESET_RATES), START: (start, 0.0, 0.0)}
+    return preset("dead", arm), changes if arm == "with" else {}
+
+
+SLICES = (
+    Slice(
+        "map-time",
+        "Loss of thrust by the instant of the fault",
+        Axis("fault_start", "instant of the fault", _steps(1.0, 43.0), 10.0, "s"),
+        Axis("effectiveness", "effectiveness left", _steps(0.0, 1.0), 0.5),
+        _failing,
+    ),
+    Slice(
+        "map-factors",
+        "Stuck value by the error of the known factors",
+        Axis("believed_ratio", "believed / true factors", _powers(1.0, 2.0 ** (1 / 7), 7), 1.0, scale="log"),
+        Axis("stuck_value", "stuck value", _steps(-700.0, 700.0), 100.0, "rad2/s2"),
+        _stuck,
+    ),
+    Slice(
+        "map-rates",
+        "Start of the adaptation by its rate, motor 2 dead",
+        Axis("rate_ratio", "rates / those of the preset", _powers(1.0, 10.0 ** (1 / 3), 6), 1.0, scale="log"),
+        Axis("kappa_start", r"$\kappa_0(0)$", _powers(0.25, 2.0**0.5, 6), 0.25, "rad2/(N s2)", scale="log"),
+        _adapting,
+    ),
+)
+
+GAINS = _powers(1.0, 2.0**0.25, 8, 21)
+"""Gain of the allocation at the start, sum of the true thrust factors times kappa_0: 1 is exact."""
+GAIN_CASES = ("none", "dead")
+
+
+def compute_slices(progress: Progress | None = None) -> dict[str, xarray.Dataset]:
+    """Every map, and ``gain``, by name."""
+    places = {place: point for one in SLICES for place, point in one.points()}
+    gains = list(product(OBSERVERS, GAIN_CASES, ARMS, GAINS))
+    places |= {("gain", *place): gain_point(*place) for place in gains}
+    found = run_points(places.values(), progress)
+    outcomes = {place: found[point] for place, point in places.items()}
+    return {one.name: _map(one, outcomes) for one in SLICES} | {"gain": _gain(outcomes)}
+
+
+def _map(one: Slice, outcomes: Mapping[Place, Outcome]) -> xarray.Dataset:
+    import xarray
+
+    cells = {place: outcomes[place] for place, _ in one.points()}
+    coordinates = {axis.name: axis.coordinate() for axis in (one.y, one.x)}
+    attributes = {"title": one.title, "x": one.x.name, "y": one.y.name, "paper_x": one.x.paper, "paper_y": one.y.paper}
+    return xarray.Dataset(
+        *_table(cells, {"observer": list(OBSERVERS), "arm": list(ARMS), **coordinates}), attrs=attributes
+    )
+
+
+def _gain(outcomes: Mapping[Place, Outcome]) -> xarray.Dataset:
+    import xarray
+
+    cells = {place: outcome for place, outcome in outcomes.items() if place[0] == "gain"}
+    axis = Axis("gain", "gain of the allocation at the start (1: exact)", GAINS, 1.0, scale="log")
+    arms = {"observer": list(OBSERVERS), "case": list(GAIN_CASES), "arm": list(ARMS), "gain": axis.coordinate()}
+    return xarray.Dataset(*_table(cells, arms), attrs={"title": "Gain of the allocation"})
+
+
+def _table(cells: Mapping[Place, Outcome], coordinates: dict) -> tuple[dict, dict]:
+    """Outcomes in the order of the coordinates, as variables and coordinates of a dataset."""
+    peak = {"units": "m", "long_name": "largest |y(l,t)| after the fault; none where diverged", "symbol": "|y(l,t)|"}
+    end = {"units": "s", "long_name": "instant the run ended at", "symbol": "t"}
+    sizes = [len(c[1]) if isinstance(c, tuple) else len(c) for c in coordinates.values()]
+    values = np.array(list(cells.values())).reshape(*sizes, 2)
+    dims = tuple(coordinates)
+    return {"peak": (dims, values[..., 0], peak), "end_time": (dims, values[..., 1], end)}, coordinates

@@ -1,0 +1,16 @@
+"""docs/errata.md: where we read the paper otherwise than it is printed."""
+
+from __future__ import annotations
+
+from writing import page, table
+
+from umbilical.reproduce.errata import errata as read
+
+
+def errata() -> str:
+    """Where we read the paper otherwise than it is printed."""
+    intro, sections = read()
+    tables = [
+        f"## {title}\n\n{table(('where', 'printed', 'ours', 'why'), entries)}" for title, entries in sections.items()
+    ]
+    return page("Errata of the paper", intro, *tables)
