@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
 
 import numpy as np
 
@@ -26,6 +27,7 @@ _ACCELERATION_KEY = {**_SPEED_KEY, "trapezoid": "winch.acceleration"}
 _LENGTH_KEY = {**_SPEED_KEY, "constant": "winch.length", "cosine": "winch.amplitude"}
 
 
+@lru_cache(maxsize=16)
 def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
     """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet."""
     if any(True for _ in tables_of_the_winch(winch, duration)):
