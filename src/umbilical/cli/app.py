@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, verifying
+from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, sweeping, verifying
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -32,6 +32,8 @@ app = typer.Typer(
 
 for command in (
     running.run,
+    sweeping.sweep,
+    sweeping.member,
     reading.show,
     reading.compare,
     reading.export,

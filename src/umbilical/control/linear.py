@@ -32,7 +32,7 @@ def held_input_form(a: np.ndarray, b: np.ndarray, period: float) -> np.ndarray:
 
 @lru_cache(maxsize=256)
 def _exponential(content: bytes, size: int) -> np.ndarray:
-    """Of a square matrix by its bytes: the thousand runs of a study share a few filters, and this takes a millisecond."""
+    """Of a square matrix by its bytes: a thousand runs of a study share a few filters, and each takes a millisecond."""
     from scipy.linalg import expm
 
     return expm(np.frombuffer(content).reshape(size, size))

@@ -145,4 +145,3 @@ def _find(data: Mapping[str, Any] | None, key: str) -> Any:
 
 
 _CHECKS = (_names, _bounds, _relative, _grid, _faults, _metrics, _tuned_arm, _arms_leave_the_draws_alone)
-

@@ -40,7 +40,7 @@ def connect(address: str, jobs: int) -> Any:
         FileError: there is no scheduler, or its workers have another version.
     """
     try:
-        import dask
+        import dask.config
         from distributed import Client, LocalCluster
     except ImportError as error:
         raise MissingPartnerError(
@@ -49,10 +49,8 @@ def connect(address: str, jobs: int) -> Any:
     dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES})
     try:
         if address == "local":
-            cluster = LocalCluster(
-                n_workers=jobs, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
-            )
-            return Client(cluster)
+            quiet: dict[str, Any] = {"dashboard_address": None, "silence_logs": 50}
+            return Client(LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, **quiet))
         client = Client(address, timeout="10s")
     except (OSError, TimeoutError, ValueError) as error:
         raise FileError(f"{address}: there is no Dask scheduler that answers ({error})") from error

@@ -66,9 +66,7 @@ def _one_pool(jobs: int, packed: bytes, members: Iterable[Member]) -> Iterator[R
         yield from in_pool(pool, _Packed(packed), members, 2 * jobs)
 
 
-def in_pool(
-    pool: Executor, function: Callable[[Work], Done], items: Iterable[Work], window: int
-) -> Iterator[Done]:
+def in_pool(pool: Executor, function: Callable[[Work], Done], items: Iterable[Work], window: int) -> Iterator[Done]:
     """Results of a function in any order, with at most ``window`` calls under way."""
     waiting = iter(items)
     running: set[Future[Done]] = {pool.submit(function, item) for item in islice(waiting, window)}

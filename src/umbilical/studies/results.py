@@ -122,7 +122,11 @@ def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
     found: dict[str, Any] = {
         "member": ("member", members, _words("1", "member")),
         "arm": ("arm", np.array([arm.name for arm in study.arms]), {"long_name": "what is compared"}),
-        "variable": ("variable", np.array([v.name for v in draws.variables], dtype=str), {"long_name": "what is drawn"}),
+        "variable": (
+            "variable",
+            np.array([v.name for v in draws.variables], dtype=str),
+            {"long_name": "what is drawn"},
+        ),
     }
     drawn = [draws.values(draws.member(int(number))) for number in members]
     for variable in draws.variables:

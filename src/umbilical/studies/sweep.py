@@ -137,9 +137,7 @@ def _keep_the_worst(store: Store, draws: Draws, result: StudyResult) -> None:
 
     keep = draws.study.trajectories
     wanted = [
-        (number, arm)
-        for arm, name in enumerate(result.arms)
-        for number in worst(result, keep.metric, name, keep.count)
+        (number, arm) for arm, name in enumerate(result.arms) for number in worst(result, keep.metric, name, keep.count)
     ]
 
     def again(which: tuple[int, int]) -> tuple[str, bytes]:
