@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, sweeping, verifying
+from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, sweeping, tuning, verifying
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -34,6 +34,7 @@ for command in (
     running.run,
     sweeping.sweep,
     sweeping.member,
+    tuning.tune,
     reading.show,
     reading.compare,
     reading.export,
@@ -69,6 +70,8 @@ def umbilical(
       umbilical show my.toml
       umbilical compare paper.nc other.nc
       umbilical certify my.toml
+      umbilical sweep paper-robustness --out robust
+      umbilical tune gain-tuning --out tuned
     """
 
 

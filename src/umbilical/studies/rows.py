@@ -36,6 +36,12 @@ class Row(NamedTuple):
     runs: tuple[bytes | None, ...] = ()
 
 
+def from_entry(entry: Any) -> Row:
+    """The row of a line of a journal, which holds a row's first two fields."""
+    number, cells = entry
+    return Row(number, tuple(Cell(status, reason, end, tuple(metrics)) for status, reason, end, metrics in cells))
+
+
 def run_member(draws: Draws, member: Member) -> Row:
     """Simulate one member in every arm. Whatever becomes of it, it is a row.
 

@@ -12,11 +12,12 @@ from typing import IO, Any
 
 from umbilical import __version__, files
 from umbilical.errors import FileError, OutputError
-from umbilical.studies.journal import Journal, rows
-from umbilical.studies.rows import NAMES, Row
+from umbilical.studies.journal import Journal, entries
+from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Study
 
-MANIFEST, JOURNAL, LOCK, RESULT, RUNS = "manifest.json", "journal.txt", "lock", "study.nc", "runs"
+MANIFEST, JOURNAL, LOCK, RUNS = "manifest.json", "journal.txt", "lock", "runs"
+RESULTS = ("study.nc", "tuning.json", "tuned.toml")
 
 
 class Store:
@@ -26,13 +27,9 @@ class Store:
         self.folder = folder
         self.journal = journal
 
-    def rows(self) -> Iterator[Row]:
-        """Every row so far."""
-        return rows(self.folder / JOURNAL)
-
-    def done(self) -> set[int]:
-        """Numbers of the members that are finished."""
-        return {row.number for row in self.rows()}
+    def entries(self) -> Iterator[Any]:
+        """Every line of the journal so far."""
+        return entries(self.folder / JOURNAL)
 
     def save(self, content: bytes, name: str) -> Path:
         """A file of the folder, whole or not at all; what is there already came from the same study."""
@@ -42,12 +39,13 @@ class Store:
 
 
 @contextmanager
-def open_store(folder: Path, study: Study, *, resume: bool, force: bool) -> Iterator[Store]:
+def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bool) -> Iterator[Store]:
     """The folder of a study, made if need be.
 
     Args:
         folder: where its files are.
-        study: what is run; ``resume`` refuses the members of another.
+        study: what is run; ``resume`` refuses the parts of another.
+        task: what is done with it, and by what means.
         resume: go on with what is there.
         force: begin anew, and remove what is there.
 
@@ -62,7 +60,7 @@ def open_store(folder: Path, study: Study, *, resume: bool, force: bool) -> Iter
             part.unlink()  # of a process that was killed while it wrote
         if force:
             _clear(folder)
-        _settle(folder, study, resume)
+        _settle(folder, study, task, resume)
         journal = Journal(folder / JOURNAL)
         try:
             yield Store(folder, journal)
@@ -70,17 +68,23 @@ def open_store(folder: Path, study: Study, *, resume: bool, force: bool) -> Iter
             journal.close()
 
 
-def fingerprint(study: Study) -> dict[str, Any]:
+def fingerprint(study: Study, task: str) -> dict[str, Any]:
     """What must be equal for two parts of a study to fit together bit for bit."""
     from umbilical.compile import cache_folder
 
     kernels = cache_folder().name  # a hash of every kernel source and of the versions that compile them
-    return {"study_hash": study.hash, "version": __version__, "kernels": kernels, "metrics": list(NAMES)}
+    return {
+        "task": task,
+        "study_hash": study.hash,
+        "version": __version__,
+        "kernels": kernels,
+        "metrics": list(NAMES),
+    }
 
 
-def _settle(folder: Path, study: Study, resume: bool) -> None:
+def _settle(folder: Path, study: Study, task: str, resume: bool) -> None:
     """Write the manifest into a new folder, or compare with the one that is there."""
-    path, mine = folder / MANIFEST, fingerprint(study)
+    path, mine = folder / MANIFEST, fingerprint(study, task)
     if not path.exists():
         (folder / JOURNAL).unlink(missing_ok=True)  # whose it was nobody knows
         content = {**mine, "name": study.name, "study": study.to_toml()}
@@ -94,9 +98,17 @@ def _settle(folder: Path, study: Study, resume: bool) -> None:
         raise FileError(f"{path}: this is not a manifest ({error}); --force begins anew") from error
     different = [name for name, value in mine.items() if found.get(name) != value]
     if different:
-        what = {"study_hash": "another study", "version": "another version of Umbilical", "kernels": "other kernels"}
-        reason = what.get(different[0], "another set of metrics")
+        reason = _WORDS[different[0]]
         raise FileError(f"{folder}: was begun with {reason}, and the parts would not fit; --force begins anew")
+
+
+_WORDS = {
+    "task": "another task, or with another optimiser",
+    "study_hash": "another study",
+    "version": "another version of Umbilical",
+    "kernels": "other kernels",
+    "metrics": "other metrics",
+}
 
 
 def _refuse_strangers(folder: Path) -> None:
@@ -116,7 +128,7 @@ def _make(folder: Path) -> None:
 
 def _clear(folder: Path) -> None:
     """Remove what this module wrote, and nothing else."""
-    for name in (MANIFEST, RESULT, JOURNAL):  # the manifest first: without it nothing counts
+    for name in (MANIFEST, *RESULTS, JOURNAL):  # the manifest first: without it nothing counts
         (folder / name).unlink(missing_ok=True)
     shutil.rmtree(folder / RUNS, ignore_errors=True)
 

@@ -15,8 +15,8 @@ from umbilical.formats import to_netcdf
 from umbilical.studies.engines import Engine, default_jobs, in_pool, processes, threads
 from umbilical.studies.members import Draws, Member
 from umbilical.studies.results import StudyResult, assemble
-from umbilical.studies.rows import Row, make_controller
-from umbilical.studies.store import RESULT, RUNS, Store, open_store
+from umbilical.studies.rows import Row, from_entry, make_controller
+from umbilical.studies.store import RUNS, Store, open_store
 from umbilical.studies.study import Study
 
 Progress = Callable[[float], None]
@@ -61,7 +61,7 @@ def sweep(
     engine = engine or default_engine(study, jobs or default_jobs())
     if folder is None:
         return assemble(study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
-    with open_store(Path(folder), study, resume=resume, force=force) as store:
+    with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
         return _into(store, draws, engine, progress)
 
 
@@ -71,7 +71,7 @@ def default_engine(study: Study, jobs: int) -> Engine:
 
 
 def _into(store: Store, draws: Draws, engine: Engine, progress: Progress) -> StudyResult:
-    study, done = draws.study, store.done()
+    study, done = draws.study, {number for number, _ in store.entries()}
     if study.trajectories.keep != "none":
         _check_room(store.folder, draws)
     found = engine(draws, _members(draws, done))
@@ -79,11 +79,11 @@ def _into(store: Store, draws: Draws, engine: Engine, progress: Progress) -> Stu
         for cell, run in enumerate(row.runs):
             if run is not None:
                 store.save(run, run_name(row.number, cell))
-        store.journal.append(row)
-    result = assemble(study, store.rows())
+        store.journal.append(row[:2])
+    result = assemble(study, map(from_entry, store.entries()))
     if study.trajectories.keep == "worst":
         _keep_the_worst(store, draws, result)
-    store.save(to_netcdf(result.data), RESULT)
+    store.save(to_netcdf(result.data), "study.nc")
     return result
 
 
