@@ -53,7 +53,10 @@ def _order(key: str, low: float, high: float) -> Problem:
 
 def _relative(study: Study) -> Iterator[Problem]:
     """Only numbers multiply, and only what is there."""
-    base = arm_data(study, {}) if not _broken(study, {}) else None
+    try:
+        base = arm_data(study, {})
+    except ScenarioError:
+        return  # keys that lead nowhere are named by the arms
     for factor in study.factors:
         if not factor.relative:
             continue
@@ -85,6 +88,16 @@ def _faults(study: Study) -> Iterator[Problem]:
                 if getattr(campaign, name) is None:
                     key = f"campaigns.{number}.{name}"
                     yield Problem(key, "missing", "a distribution", f"a {kind} fault needs it", f"add {name}")
+
+
+def _motors(study: Study) -> Iterator[Problem]:
+    """A campaign's motors are there."""
+    there = len(study.scenario.motors)
+    for number, campaign in enumerate(study.campaigns, start=1):
+        for motor in campaign.motors:
+            if not 1 <= motor <= there:
+                key, bound = f"campaigns.{number}.motors", f"1 to {there}" if there else "none: there are no motors"
+                yield Problem(key, str(motor), bound, "only a motor that is there can fail", "name one that is there")
 
 
 def _metrics(study: Study) -> Iterator[Problem]:
@@ -121,6 +134,7 @@ def _scenarios(study: Study) -> Iterator[Problem]:
 
 
 def _broken(study: Study, changes: Mapping[str, Any]) -> tuple[Problem, ...]:
+    """What is wrong with the study's scenario under some changes."""
     try:
         admit(validate(arm_data(study, changes), study.name))
     except ScenarioError as error:
@@ -137,11 +151,11 @@ def _draw_in_the_middle(study: Study) -> Iterator[Problem]:
         yield from error.problems
 
 
-def _find(data: Mapping[str, Any] | None, key: str) -> Any:
+def _find(data: Mapping[str, Any], key: str) -> Any:
     try:
         return look_up(data, key)
     except KeyError:
         return None
 
 
-_CHECKS = (_names, _bounds, _relative, _grid, _faults, _metrics, _tuned_arm, _arms_leave_the_draws_alone)
+_CHECKS = (_names, _bounds, _relative, _grid, _faults, _motors, _metrics, _tuned_arm, _arms_leave_the_draws_alone)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
@@ -32,8 +33,9 @@ def dask(address: str, jobs: int) -> Engine:
     return run
 
 
-def connect(address: str, jobs: int) -> Any:
-    """A client of the cluster, whose workers have this version of Umbilical.
+@contextmanager
+def connect(address: str, jobs: int) -> Iterator[Any]:
+    """A client of the cluster, whose workers have this version of Umbilical; a local one ends with it.
 
     Raises:
         MissingPartnerError: dask.distributed is not installed.
@@ -47,15 +49,21 @@ def connect(address: str, jobs: int) -> Any:
             "a cluster needs dask.distributed, which is not installed; get it with `pip install umbilical[cluster]`"
         ) from error
     dask.config.set({"distributed.scheduler.allowed-failures": _RETRIES})
+    if address == "local":
+        quiet: dict[str, Any] = {"dashboard_address": ":0", "silence_logs": 50}
+        with (
+            LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, **quiet) as cluster,
+            Client(cluster) as client,
+        ):
+            yield client
+        return
     try:
-        if address == "local":
-            quiet: dict[str, Any] = {"dashboard_address": None, "silence_logs": 50}
-            return Client(LocalCluster(n_workers=jobs, threads_per_worker=1, processes=True, **quiet))
         client = Client(address, timeout="10s")
     except (OSError, TimeoutError, ValueError) as error:
         raise FileError(f"{address}: there is no Dask scheduler that answers ({error})") from error
-    _check_versions(client, address)
-    return client
+    with client:
+        _check_versions(client, address)
+        yield client
 
 
 def on_client(client: Any, draws: Draws, members: Iterable[Member]) -> Iterator[Row]:
