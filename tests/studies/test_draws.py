@@ -86,7 +86,7 @@ def test_a_relative_factor_multiplies_and_the_controller_does_not_know():
     draws = Draws(small_study())
     member = draws.member(3)
     scenario = draws.scenario(member, 1)
-    assert scenario.payload.mass == 500.0 * draws.values(member)["payload.mass"]
+    assert scenario.payload.mass == 500.0 * float(draws.values(member)["payload.mass"])
     assert scenario.control.nominal.payload_mass == 500.0
 
 

@@ -48,6 +48,7 @@ __all__ = [
     "plot_certificate",
     "plot_convergence",
     "plot_comparison",
+    "plot_convergence",
     "plot_distribution",
     "plot_energy",
     "plot_map",
