@@ -254,7 +254,7 @@ def open_run(path: str | os.PathLike[str]) -> Run:
     """
     from umbilical.scenario.document import parse
 
-    data = from_netcdf(files.read(path), str(path))
+    data = _of_a_run(path)
     try:
         return Run(data, parse(data.attrs["scenario"], f"{path}: the scenario inside"))
     except ScenarioError as error:
@@ -263,4 +263,12 @@ def open_run(path: str | os.PathLike[str]) -> Run:
 
 def scenario_text(path: str | os.PathLike[str]) -> str:
     """The TOML text of the scenario a stored run came from; raises as :func:`open_run` does."""
-    return from_netcdf(files.read(path), str(path)).attrs["scenario"]
+    return _of_a_run(path).attrs["scenario"]
+
+
+def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
+    data = from_netcdf(files.read(path), str(path))
+    if "scenario" not in data.attrs:
+        kind = data.attrs.get("kind", "something else")
+        raise FileError(f"{path}: this is the result of a {kind}, not of a run; `umbilical show` reads it")
+    return data

@@ -14,19 +14,9 @@ from umbilical.run import Status
 
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
 COMMANDS = (
-    "run",
-    "show",
-    "compare",
-    "export",
-    "plot",
-    "certify",
-    "presets",
-    "schema",
-    "doctor",
-    "bench",
-    "verify",
-    "reproduce",
-)
+    "run", "show", "compare", "export", "plot", "certify", "reproduce", "sweep", "member", "tune", "verify",
+    "presets", "schema", "doctor", "bench",
+)  # fmt: skip
 
 
 @pytest.mark.parametrize(

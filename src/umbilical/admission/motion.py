@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +30,12 @@ _LENGTH_KEY = {**_SPEED_KEY, "constant": "winch.length", "cosine": "winch.amplit
 
 def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
     """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet."""
+    law: Any = winch  # frozen records have a hash, which type checkers cannot see
+    return _sampled_winch(law, duration)
+
+
+@lru_cache(maxsize=16)
+def _sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
     if any(True for _ in tables_of_the_winch(winch, duration)):
         return None
     marks = [0.0, duration, *laws.jumps(winch)]

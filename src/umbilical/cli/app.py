@@ -11,7 +11,19 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, reproducing, running, verifying
+from umbilical.cli import (
+    benching,
+    certifying,
+    doctoring,
+    drawing,
+    listing,
+    reading,
+    reproducing,
+    running,
+    sweeping,
+    tuning,
+    verifying,
+)
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -32,6 +44,9 @@ app = typer.Typer(
 
 for command in (
     running.run,
+    sweeping.sweep,
+    sweeping.member,
+    tuning.tune,
     reading.show,
     reading.compare,
     reading.export,
@@ -68,6 +83,8 @@ def umbilical(
       umbilical show my.toml
       umbilical compare paper.nc other.nc
       umbilical certify my.toml
+      umbilical sweep paper-robustness --out robust
+      umbilical tune gain-tuning --out tuned
     """
 
 

@@ -17,32 +17,44 @@ def presets(
     ] = None,
     force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """List, print or copy the scenarios that come along.
+    """List, print or copy the scenarios and studies that come along.
 
     \b
     examples
       umbilical presets
       umbilical presets paper-dead
       umbilical presets --copy paper my.toml
+      umbilical presets --copy paper-robustness my-study.toml
     """
-    from umbilical.admission import preset_text
-
     if copy:
         from umbilical import files
+        from umbilical.studies.load import study_names
 
         source, target = copy
-        written = files.write(target, preset_text(source).encode(), force=force)
-        say(f"copied: {written}\n  next: change it; `umbilical show {target}`; `umbilical run {target}`")
+        command = "sweep" if source in study_names() else "run"
+        written = files.write(target, _text(source).encode(), force=force)
+        say(f"copied: {written}\n  next: change it; `umbilical show {target}`; `umbilical {command} {target}`")
     else:
-        say(preset_text(name) if name else _descriptions())
+        say(_text(name) if name else _descriptions())
+
+
+def _text(name: str) -> str:
+    """TOML text of a scenario or study that comes along; FileError if there is none."""
+    from umbilical.admission import preset_text
+    from umbilical.studies.load import study_names, study_text
+
+    return study_text(name) if name in study_names() else preset_text(name)
 
 
 def _descriptions() -> str:
-    from umbilical.admission import preset_names, preset_text
+    from umbilical.admission import preset_names
     from umbilical.scenario.document import read
+    from umbilical.studies.load import study_names
 
-    texts = {name: read(preset_text(name), name) for name in preset_names()}
-    return table([(name, _first_sentence(text["description"])) for name, text in texts.items()])
+    def described(names: tuple[str, ...]) -> str:
+        return table([(name, _first_sentence(read(_text(name), name)["description"])) for name in names])
+
+    return f"scenarios\n{described(preset_names())}\n\nstudies\n{described(study_names())}"
 
 
 def _first_sentence(text: str) -> str:

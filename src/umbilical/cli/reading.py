@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from typer import Argument, Option
+from typer import Argument, BadParameter, Option
 
 from umbilical.cli.speech import run_document, say, say_json, shown_unit, table
 
@@ -16,20 +16,61 @@ _ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "versi
 
 
 def show(
-    file: Annotated[str, Argument(help="A .nc result, a .toml scenario, or a preset's name.")],
+    file: Annotated[str, Argument(help="A .nc result, a .toml scenario or study, or a preset's name.")],
+    metric: Annotated[
+        list[str] | None, Option("--metric", metavar="NAME", help="Of a study: show this one; may be repeated.")
+    ] = None,
+    sensitivity: Annotated[
+        str | None, Option("--sensitivity", metavar="METRIC", help="Of a study: which draws matter for it.")
+    ] = None,
+    against: Annotated[
+        str | None, Option("--against", metavar="ARM", help="Of a study: compare with this arm; the first if left out.")
+    ] = None,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> None:
-    """Show a result's metrics, or a scenario's values and what is assumed.
+    """Show a result's metrics, what a study found, or the values of a scenario and what is assumed.
 
     \b
     examples
       umbilical show paper
       umbilical show paper.nc
+      umbilical show robust/study.nc --metric tip_peak --sensitivity tip_peak
     """
-    if Path(file).suffix == ".nc":
+    from umbilical.studies.load import is_study
+
+    if is_study(file):
+        _show_study(file, tuple(metric or ()), sensitivity, against, as_json)
+    elif metric or sensitivity or against:
+        raise BadParameter("only the result of a study has distributions", param_hint="--metric")
+    elif Path(file).suffix == ".nc":
         _show_run(file, as_json)
     else:
         _show_scenario(file, as_json)
+
+
+def _show_study(
+    file: str, metrics: tuple[str, ...], sensitivity: str | None, against: str | None, as_json: bool
+) -> None:
+    from umbilical.cli import study_report
+    from umbilical.studies.load import load_study
+    from umbilical.studies.results import open_study
+
+    if Path(file).suffix != ".nc":
+        study = load_study(file)
+        document = {"study": study.to_dict(), "study_hash": study.hash}
+        say_json(document) if as_json else say(study_report.describe(study))
+        return
+    result = open_study(file)
+    if unknown := [name for name in (*metrics, *filter(None, [sensitivity])) if name not in result.metrics]:
+        raise BadParameter(f"{unknown[0]} is not there; there are {', '.join(result.metrics)}", param_hint="--metric")
+    if against is not None and against not in result.arms:
+        raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
+    if as_json:
+        say_json(study_report.study_document(result, {"result": file}, against))
+    else:
+        parts = [study_report.report(result, metrics, against)]
+        parts += [study_report.sensitivity_text(result, sensitivity)] if sensitivity else []
+        say("\n\n".join(parts))
 
 
 def _show_run(file: str, as_json: bool) -> None:

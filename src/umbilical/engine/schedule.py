@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,6 +11,8 @@ from umbilical.plant.exogenous import Steps
 
 SNAP = 1e-9
 """A jump this close to a step's end, as a share of the step, is taken to be at it."""
+SHARED = 20000
+"""Steps of the longest stretch worth keeping for the next run: a few megabytes."""
 
 
 class Stretch(NamedTuple):
@@ -41,19 +44,29 @@ def make_clock(duration: float, period: float, largest_step: float, jumps: tuple
 def stretch(clock: Clock, begin: int, end: int) -> Stretch:
     """Plant steps of the control periods ``begin`` to ``end`` (exclusive).
 
-    Steps are counted from the start of the run, so that it does not matter where stretches are cut.
+    Steps are counted from the start of the run, so that it does not matter where stretches are cut. Equal stretches of
+    different runs are one object, by which what was sampled at them is known (:mod:`umbilical.plant.exogenous`).
     """
     step = clock.period / clock.substeps
-    knots = np.arange(begin * clock.substeps, end * clock.substeps + 1) * step
-    starts = np.arange(0, knots.size, clock.substeps)
-    tolerance = SNAP * step
-    inside = clock.jumps[(clock.jumps >= knots[0] - tolerance) & (clock.jumps <= knots[-1] + tolerance)]
-    nearest = np.rint(inside / step).astype(np.int64) - begin * clock.substeps
-    on_knot = np.abs(knots[np.clip(nearest, 0, knots.size - 1)] - inside) <= tolerance
+    first, last = begin * clock.substeps * step - SNAP * step, end * clock.substeps * step + SNAP * step
+    inside = clock.jumps[(clock.jumps >= first) & (clock.jumps <= last)]
+    shared = (end - begin) * clock.substeps <= SHARED
+    make = _stretch if shared else _stretch.__wrapped__
+    return make(clock.period, clock.substeps, begin, end, tuple(inside.tolist()), shared)
+
+
+@lru_cache(maxsize=32)
+def _stretch(period: float, substeps: int, begin: int, end: int, jumps: tuple[float, ...], shared: bool) -> Stretch:
+    step = period / substeps
+    knots = np.arange(begin * substeps, end * substeps + 1) * step
+    starts = np.arange(0, knots.size, substeps)
+    inside = np.array(jumps, dtype=float)
+    nearest = np.rint(inside / step).astype(np.int64) - begin * substeps
+    on_knot = np.abs(knots[np.clip(nearest, 0, knots.size - 1)] - inside) <= SNAP * step
     # The knot takes the jump's own number: which side of it a step is on must not hang on round-off.
     knots[nearest[on_knot]] = inside[on_knot]
     between = inside[~on_knot]
     places = np.searchsorted(knots, between)
     first = starts + np.searchsorted(between, knots[starts], side="left")
     knots = np.insert(knots, places, between)
-    return Stretch(Steps(knots[:-1], knots[1:], inside), first.astype(np.int64))
+    return Stretch(Steps(knots[:-1], knots[1:], inside, shared), first.astype(np.int64))

@@ -61,6 +61,15 @@ class Ending(NamedTuple):
     error: ControllerError | None = None
 
 
+class Outcome(NamedTuple):
+    """What :func:`measure` keeps of a run: how it ended, when and why, and its metrics in SI units."""
+
+    status: Status
+    reason: str
+    end_time: float
+    metrics: dict[str, float]
+
+
 class Setup(NamedTuple):
     """Everything a run needs, built from its scenario."""
 
@@ -114,8 +123,33 @@ def simulate(
     return run
 
 
-def set_up(scenario: Scenario, controller: Controller | None = None) -> Setup:
-    """The plant at rest with its sensors, record and controller, before the first step."""
+def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome:
+    """Simulate for the metrics alone: the same numbers as :func:`simulate`, without storing or labelling a sample.
+
+    What is read from stored fields, the power balance, is left out.
+
+    Raises:
+        ScenarioError, ControllerError: as :func:`simulate`.
+
+    >>> import umbilical
+    >>> scenario = umbilical.load("crosscheck-none").replace({"duration": 1.0})
+    >>> measure(scenario).metrics["tip_peak"] == simulate(scenario).metrics["tip_peak"]
+    True
+    """
+    admit(scenario)
+    setup = set_up(scenario, controller, stored=False)
+    ending, _ = _run(scenario, setup, None)
+    if ending.error is not None:
+        raise ending.error
+    metrics = {name: float(value) for name, value in _all_metrics(scenario, setup).items()}
+    return Outcome(ending.status, ending.reason, ending.time, metrics)
+
+
+def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: bool = True) -> Setup:
+    """The plant at rest with its sensors, record and controller, before the first step.
+
+    With ``stored`` false the record holds the first and the last sample only.
+    """
     period, every = scenario.control.period, 1
     if controller is not None:
         period, every = _periods(scenario, controller)
@@ -130,7 +164,7 @@ def set_up(scenario: Scenario, controller: Controller | None = None) -> Setup:
         make_readings(motors),
         make_decision(motors),
     )
-    record = _record(scenario, clock)
+    record = _record(scenario, clock, stored)
     settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
     if controller is None:
         decider: loop.BuiltIn | loop.Python = loop.BuiltIn(world, settings, memory, record)
@@ -159,8 +193,8 @@ def _periods(scenario: Scenario, controller: Controller) -> tuple[float, int]:
     return loops, every
 
 
-def _record(scenario: Scenario, clock: Clock) -> loop.Record:
-    every = max(1, round(scenario.output.interval / clock.period))
+def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
+    every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
     samples = clock.periods // every + 1 + (clock.periods % every > 0)
     first = faults.first_fault(scenario.faults)
     fault_update = clock.periods + 1 if first is None else int(np.ceil(first / clock.period - 1e-9))
@@ -232,9 +266,7 @@ def _assemble(
     if ending.status is Status.COMPLETED and setup.record.log.scalars.shape[0] > samples:
         samples, times = samples + 1, np.append(times, scenario.duration)
     named = channels(setup.record.log, samples, bool(scenario.motors))
-    metrics = _metrics(setup.record.tally, float(setup.world.state.ends[TIP_DISPLACEMENT]))
-    if not scenario.faults:
-        del metrics["tip_peak_after_fault"]
+    metrics = _all_metrics(scenario, setup)
     if samples:
         metrics |= _balance(scenario, setup.record.log, named)
     return assemble(
@@ -262,6 +294,14 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
         "energy_balance_residual": relative_residual(named["energy"], works),
         "grid_loss": lost / scale_of(named["energy"], works) if lost else 0.0,
     }
+
+
+def _all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
+    """Metrics of a run so far, without those of the power balance."""
+    metrics = _metrics(setup.record.tally, float(setup.world.state.ends[TIP_DISPLACEMENT]))
+    if not scenario.faults:
+        del metrics["tip_peak_after_fault"]
+    return metrics
 
 
 def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:

@@ -8,7 +8,9 @@ end of one step takes the value before it and the start of the next the value af
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,16 +18,22 @@ from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.winch import Winch
 
 Array = np.ndarray
 
 
-class Steps(NamedTuple):
-    """Consecutive steps of the plant: ``start`` and ``end``, s, shape (steps,); ``jumps`` published among them."""
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Consecutive steps of the plant: ``start`` and ``end``, s, shape (steps,); ``jumps`` published among them.
+
+    Never changed, and known by identity. Where runs share them, what was sampled is kept.
+    """
 
     start: Array
     end: Array
     jumps: Array
+    shared: bool = False
 
 
 START, MIDDLE, END = range(3)
@@ -104,7 +112,7 @@ class Outside:
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
         inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
-        self._sample_winch(steps, inputs.world)
+        inputs.world[: JERK_RATIO + 1] = _kept(_winch_at, steps)(self._scenario.winch, environment.gravity, steps)
         if environment.vessel_motion:
             motion = inputs.world[VESSEL : VESSEL_VELOCITY + 1]
             _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps, middle=False)
@@ -113,16 +121,6 @@ class Outside:
             _fill_signal(row, load.signal, steps, middle=False)
         self._sample_motors(steps, inputs.motors)
         return inputs
-
-    def _sample_winch(self, steps: Steps, world: Array) -> None:
-        law, gravity = self._scenario.winch, self._scenario.environment.gravity
-
-        def motion(t: Array, side: signals.Side) -> Sequence[Array]:
-            length, speed, acceleration, jerk = winch.evaluate(law, t, side)
-            net_gravity = gravity - acceleration
-            return length, speed, acceleration, net_gravity, jerk / net_gravity
-
-        _fill(world[: JERK_RATIO + 1], motion, steps, middle=False)
 
     def _sample_motors(self, steps: Steps, out: Array) -> None:
         for k, motor in enumerate(self._scenario.motors):
@@ -146,10 +144,37 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
     return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), np.zeros((8, 3, steps)), motors, loads)
 
 
+# The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
+@lru_cache(maxsize=16)
+def _winch_at(law: Winch, gravity: float, steps: Steps) -> Array:
+    """Winch and what follows from it, rows LENGTH to JERK_RATIO of the world."""
+
+    def motion(t: Array, side: signals.Side) -> Sequence[Array]:
+        length, speed, acceleration, jerk = winch.evaluate(law, t, side)
+        net_gravity = gravity - acceleration
+        return length, speed, acceleration, net_gravity, jerk / net_gravity
+
+    rows = np.zeros((JERK_RATIO + 1, 3, steps.start.size))
+    _fill(rows, motion, steps, middle=False)
+    return rows
+
+
+@lru_cache(maxsize=64)
+def _signal_at(signal: signals.Signal, steps: Steps, middle: bool) -> Array:
+    rows = np.zeros((1, 3, steps.start.size))
+    _fill(rows, lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
+    return rows[0]
+
+
+def _kept(function: Any, steps: Steps) -> Callable[..., Array]:
+    """The function with its memory, or without it at steps that will not come again."""
+    return function if steps.shared else function.__wrapped__
+
+
 def _fill_signal(row: Array, signal: signals.Signal, steps: Steps, *, middle: bool = True) -> None:
     """A signal into ``row``, shape (3, steps); the rows of absent signals stay zero."""
     if signal:
-        _fill(row[None], lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
+        row[:] = _kept(_signal_at, steps)(signal, steps, middle)
 
 
 def _fill(

@@ -17,6 +17,14 @@ from umbilical.plots.figure import as_figure, save_figure
 from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
+from umbilical.plots.study import (
+    STUDY_PLOTS,
+    plot_comparison,
+    plot_distribution,
+    plot_map,
+    plot_sensitivity,
+    plot_study,
+)
 from umbilical.plots.tip import plot_tip
 
 PLOTS = {
@@ -32,17 +40,23 @@ PLOTS = {
 
 __all__ = [
     "PLOTS",
+    "STUDY_PLOTS",
     "as_figure",
     "plot_all_motors",
     "plot_all_observers",
     "plot_cable",
     "plot_certificate",
+    "plot_comparison",
     "plot_convergence",
+    "plot_distribution",
     "plot_energy",
+    "plot_map",
     "plot_motors",
     "plot_observers",
     "plot_overview",
     "plot_positions",
+    "plot_sensitivity",
+    "plot_study",
     "plot_tip",
     "save_figure",
 ]

@@ -1,0 +1,131 @@
+"""``umbilical sweep`` and ``member``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from typer import Argument, BadParameter, Option
+
+from umbilical.cli.speech import say, say_json, tell
+
+if TYPE_CHECKING:
+    from umbilical.studies.engines import Engine
+    from umbilical.studies.study import Study
+
+
+def sweep(
+    study: Annotated[str, Argument(help="A study's name, a .toml file, or the .nc result of one to run again.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value of the study; may be repeated.")
+    ] = None,
+    out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; named as the study if left out.")] = None,
+    jobs: Annotated[int | None, Option("--jobs", min=1, max=4096, help="How many at once; all cores.")] = None,
+    processes: Annotated[bool, Option("--processes", help="Processes instead of threads.")] = False,
+    dask: Annotated[str | None, Option("--dask", metavar="ADDRESS|local", help="Workers of a Dask cluster.")] = None,
+    resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
+    force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+) -> int:
+    """Run a study: every member in every arm.
+
+    \b
+    examples
+      umbilical sweep paper-robustness --out robust
+      umbilical sweep paper-robustness --set members=100 --jobs 2 --json
+      umbilical sweep my-study.toml --dask tcp://host:8786 --out far
+      umbilical sweep my-study.toml --dask tcp://host:8786 --out far --resume
+
+    Killed at any moment it loses at most the members under way; the same command with --resume completes to the same
+    bytes. The result, DIR/study.nc, does not depend on how many worked, nor where.
+    """
+    from umbilical.cli.progress import announce_compilation, bar
+    from umbilical.cli.study_report import report, study_document
+    from umbilical.studies.sweep import sweep as run
+
+    chosen = load_changed_study(study, changes or [])
+    folder = out or Path(chosen.name)
+    engine = _engine(chosen, jobs, processes, dask)
+    _announce(chosen)
+    announce_compilation()
+    try:
+        with bar(f"running {chosen.name}") as advance:
+            found = run(chosen, folder, engine=engine, resume=resume, force=force, progress=advance)
+    except KeyboardInterrupt:
+        tell(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
+        raise
+    where = {"result": str(folder / "study.nc")}
+    if as_json:
+        say_json(study_document(found, where))
+    else:
+        say(f"{report(found)}\n\nresult: {where['result']}")
+    return 0
+
+
+def load_changed_study(source: str, changes: list[str]) -> Study:
+    """A study with ``key=value`` changes.
+
+    Raises:
+        FileError: there is no such study.
+        ScenarioError: with every problem.
+    """
+    from umbilical.scenario.document import assignment
+    from umbilical.studies.load import load_study
+
+    return load_study(source, dict(assignment(text) for text in changes))
+
+
+def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -> Engine:
+    from umbilical.studies import engines
+    from umbilical.studies.sweep import default_engine
+
+    count = jobs or engines.default_jobs()
+    if dask and processes:
+        raise BadParameter("--processes and --dask say two different things", param_hint="--dask")
+    if dask:
+        from umbilical.studies.cluster import dask as cluster
+
+        return cluster(dask, count)
+    return engines.processes(count) if processes else default_engine(study, count)
+
+
+def _announce(study: Study) -> None:
+    """What will be stored beside the result, before anything starts."""
+    from umbilical.studies.members import Draws
+    from umbilical.studies.sweep import disk_needed
+
+    if size := disk_needed(Draws(study)):
+        tell(f"complete runs ({study.trajectories.keep}): about {size / 1e6:.3g} MB will be stored beside the result")
+
+
+def member(
+    study: Annotated[str, Argument(help="A study's name, a .toml file, or a .nc result.")],
+    number: Annotated[int, Argument(help="The member, from 1.")],
+    arm: Annotated[str | None, Option("--arm", help="An arm's name; the first if left out.")] = None,
+    out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Write it to a file.")] = None,
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="The study's changes; may be repeated.")
+    ] = None,
+    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Print the scenario of one member of a study, to run it alone.
+
+    \b
+    examples
+      umbilical member robust/study.nc 731 --arm "proposed + fault control"
+      umbilical member robust/study.nc 731 --out m731.toml
+    """
+    from umbilical import files
+    from umbilical.studies.members import Draws
+
+    chosen = load_changed_study(study, changes or [])
+    draws, arms = Draws(chosen), [a.name for a in chosen.arms]
+    if not 1 <= number <= len(draws):
+        raise BadParameter(f"there are members 1 to {len(draws)}", param_hint="NUMBER")
+    if arm is not None and arm not in arms:
+        raise BadParameter(f"there are the arms {', '.join(arms)}", param_hint="--arm")
+    text = draws.scenario(draws.member(number), arms.index(arm) if arm else 0).to_toml()
+    if out:
+        say(f"scenario: {files.write(out, text.encode(), force=force)}")
+    else:
+        say(text)

@@ -1,0 +1,83 @@
+"""``umbilical tune``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from typer import Argument, Option
+
+from umbilical.cli.speech import say, say_json, table, tell
+
+if TYPE_CHECKING:
+    from umbilical.studies.tune import Tuned
+
+_SHOWN = 12
+
+
+def tune(
+    study: Annotated[str, Argument(help="A study with a section [tuning]: its name or a .toml file.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value of the study; may be repeated.")
+    ] = None,
+    out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; NAME-tuned if left out.")] = None,
+    optimiser: Annotated[
+        Literal["auto", "optuna", "scipy"], Option("--optimiser", help="auto: Optuna where it is installed.")
+    ] = "auto",
+    jobs: Annotated[int | None, Option("--jobs", min=1, max=4096, help="Members at once; all cores.")] = None,
+    resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
+    force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+) -> int:
+    """Search for gains with which the members of a study do best.
+
+    \b
+    examples
+      umbilical tune gain-tuning --out tuned
+      umbilical tune gain-tuning --out tuned --resume
+      umbilical run tuned/tuned.toml
+
+    With two objectives the Pareto front is shown: the trials that no other beats in both. DIR/tuning.json has every
+    trial, DIR/tuned.toml a scenario with the gains that are best in the first objective.
+    """
+    from umbilical.cli.progress import announce_compilation, bar
+    from umbilical.cli.sweeping import load_changed_study
+    from umbilical.studies.engines import default_jobs
+    from umbilical.studies.sweep import default_engine
+    from umbilical.studies.tune import tune as search
+
+    chosen = load_changed_study(study, changes or [])
+    folder = out or Path(f"{chosen.name}-tuned")
+    engine = default_engine(chosen, jobs or default_jobs())
+    announce_compilation()
+    try:
+        with bar(f"tuning {chosen.name}") as advance:
+            found = search(
+                chosen, folder, optimiser=optimiser, engine=engine, resume=resume, force=force, progress=advance
+            )
+    except KeyboardInterrupt:
+        tell(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")
+        raise
+    files = {"trials": str(folder / "tuning.json")}
+    if found.front:
+        files["scenario"] = str(folder / "tuned.toml")
+    if as_json:
+        say_json({**found.document(), "files": files})
+    else:
+        say("\n\n".join([_report(found), *(f"{role}: {path}" for role, path in files.items())]))
+    return 0
+
+
+def _report(found: Tuned) -> str:
+    from umbilical.studies.tune import name_of, tuning_of
+
+    tuning = tuning_of(found.study)
+    head = (*(gain.key for gain in tuning.gains), *(name_of(objective) for objective in tuning.objectives))
+    rows = [(*(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values)) for t in found.front]
+    kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
+    text = f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
+    if not rows:
+        return f"{text}; none is left to choose"
+    what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
+    more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
+    return f"{text} ({', '.join(found.conditions)})\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"

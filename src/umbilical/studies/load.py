@@ -1,0 +1,132 @@
+"""Where studies come from: presets by name, TOML files, result files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from umbilical import files
+from umbilical.admission import load
+from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.scenario.document import Data, freeze, read, try_override
+from umbilical.scenario.problems import nearest, problems_of
+from umbilical.studies.checks import problems_across
+from umbilical.studies.study import Study
+
+
+def load_study(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Study:
+    """A study that has passed every check.
+
+    Args:
+        source: name of a preset, path of a ``.toml`` file, or path of a study's ``.nc`` result. In a file,
+            ``scenario`` is a preset's name, the path of a scenario beside the file, or a whole scenario.
+        overrides: values by dotted keys of the study, lists numbered from 1, e.g. ``{"members": 50}``.
+
+    Raises:
+        FileError: there is no such preset or file, it cannot be read, or it is not TOML.
+        ScenarioError: with every problem of the study, of its scenario and of what its arms make of it.
+
+    >>> load_study("fault-map", {"seed": 7}).seed
+    7
+    """
+    origin = os.fspath(source)
+    data = read(_text(origin), origin)
+    data["scenario"] = _scenario_data(data.get("scenario"), Path(origin).parent, origin)
+    changed, lost = try_override(data, overrides or {})
+    return admit_study(changed, origin, lost)
+
+
+def admit_study(data: Mapping[str, Any], origin: str, problems: list[Problem] | None = None) -> Study:
+    """Study of plain data, after all checks.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    try:
+        study = Study.model_validate(freeze(data))
+    except ValidationError as error:
+        raise ScenarioError([*(problems or []), *problems_of(error, Study)], origin) from error
+    if found := [*(problems or []), *problems_across(study)]:
+        raise ScenarioError(found, origin)
+    return study
+
+
+def study_names() -> tuple[str, ...]:
+    """Names of the studies that come with the package.
+
+    >>> study_names()
+    ('fault-map', 'gain-tuning', 'paper-robustness')
+    """
+    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
+
+
+def study_text(name: str) -> str:
+    """TOML text of a study that comes with the package.
+
+    Raises:
+        FileError: there is none of this name.
+    """
+    if name not in study_names():
+        raise FileError(f"{name}: there is no study of this name; {nearest(name, study_names())}")
+    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def is_study(source: str) -> bool:
+    """Whether a name or file is a study rather than a scenario or a run; False for what cannot be read."""
+    if source in study_names():
+        return True
+    try:
+        if Path(source).suffix == ".nc":
+            from umbilical.studies.results import is_study_file
+
+            return is_study_file(source)
+        return Path(source).suffix == ".toml" and "scenario" in read(_text(source), source)
+    except FileError:
+        return False
+
+
+@lru_cache(maxsize=1)
+def _folder() -> Any:
+    return resources.files("umbilical.studies") / "presets"
+
+
+def _text(source: str) -> str:
+    if source in study_names():
+        return study_text(source)
+    if Path(source).suffix == ".nc":
+        from umbilical.studies.results import study_of_file  # brings xarray along
+
+        return study_of_file(source)
+    try:
+        return files.read(source).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(f"{source}: this is not UTF-8 text; save it with that encoding") from error
+    except FileError as error:
+        raise FileError(f"{error}, and no study of this name; {nearest(source, study_names())}") from error
+
+
+def _scenario_data(scenario: Any, folder: Path, origin: str) -> Data:
+    """The whole scenario a study starts from."""
+    if isinstance(scenario, Mapping):
+        return dict(scenario)
+    if isinstance(scenario, str):
+        beside = folder / scenario
+        return load(str(beside) if beside.suffix == ".toml" else scenario).to_dict()
+    raise ScenarioError(
+        [
+            Problem(
+                "scenario",
+                "missing" if scenario is None else str(scenario),
+                "a preset's name, or a .toml file beside the study",
+                "a study varies a scenario",
+                'e.g. scenario = "paper"',
+            )
+        ],
+        origin,
+    )

@@ -1,0 +1,208 @@
+"""What a study found: metrics over members and arms with units, the draws beside them, the study inside."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from umbilical import __version__, files
+from umbilical.errors import FileError
+from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
+from umbilical.quantities import METRICS
+from umbilical.run import CONVENTION
+from umbilical.scenario.fields import locate, word
+from umbilical.scenario.scenario import Scenario
+from umbilical.studies.members import Draws
+from umbilical.studies.rows import NAMES, STATUSES, Row
+from umbilical.studies.study import Study
+
+if TYPE_CHECKING:
+    import xarray
+
+KIND = "study"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class StudyResult:
+    """The result of a study.
+
+    Attributes:
+        data: every metric over ``member`` (from 1) and ``arm``, with units; what was drawn as coordinates of ``member``
+            under its own key; ``point``, the draws in the unit cube; ``status``, ``reason`` and ``end_time``.
+        study: what was run.
+    """
+
+    data: xarray.Dataset
+    study: Study
+
+    def __getitem__(self, name: str) -> xarray.DataArray:
+        return self.data[name]
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{name} {size}" for name, size in self.data.sizes.items())
+        return f"<StudyResult {self.study.name} ({sizes})>"
+
+    @property
+    def arms(self) -> tuple[str, ...]:
+        """Names of the arms."""
+        return tuple(str(name) for name in self.data["arm"].values)
+
+    @property
+    def metrics(self) -> tuple[str, ...]:
+        """Names of the metrics."""
+        return tuple(name for name in METRICS if name in self.data)
+
+    def scenario(self, member: int, arm: str | None = None) -> Scenario:
+        """The scenario of one member, to run it alone; the first arm's if none is named.
+
+        Raises:
+            KeyError: there is no such member or arm.
+        """
+        arms = self.arms
+        if not 1 <= member <= self.data.sizes["member"] or (arm is not None and arm not in arms):
+            raise KeyError(f"{self.study.name}: no member {member} in arm {arm}")
+        draws = Draws(self.study)
+        return draws.scenario(draws.member(member), 0 if arm is None else arms.index(arm))
+
+    def values(self, metric: str, arm: str) -> np.ndarray:
+        """A metric of every member in one arm: infinite where the run diverged or failed, since that is worse than
+        any number; not a number where the scenario was refused."""
+        chosen = self.data.sel(arm=arm)
+        status = chosen["status"].values
+        values = np.where(status == STATUSES.index("COMPLETED"), chosen[metric].values, np.inf)
+        return np.where(status == STATUSES.index("REFUSED"), np.nan, values)
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Store as NetCDF4; the same study gives the same bytes.
+
+        Raises:
+            OutputError: as for :meth:`umbilical.run.Run.save`.
+        """
+        return files.write(path, to_netcdf(self.data), force=force)
+
+
+def assemble(study: Study, rows: Iterable[Row]) -> StudyResult:
+    """Put rows, in any order, under their names."""
+    import xarray
+
+    draws = Draws(study)
+    shape = (len(draws), len(study.arms))
+    numbers = np.full((*shape, len(NAMES)), np.nan)
+    status, end, reason = np.zeros(shape, dtype=np.int8), np.zeros(shape), np.full(shape, "", dtype=object)
+    for row in rows:
+        place = row.number - 1
+        for arm, cell in enumerate(row.cells):
+            numbers[place, arm] = cell.metrics
+            status[place, arm], end[place, arm] = STATUSES.index(cell.status), cell.end_time
+            reason[place, arm] = "" if cell.status == "COMPLETED" else cell.reason
+    dims = ("member", "arm")
+    named: dict[str, Any] = {
+        name: (dims, np.ascontiguousarray(numbers[..., k]), _words(METRICS[name].unit, METRICS[name].meaning))
+        for k, name in enumerate(NAMES)
+        if not np.isnan(numbers[..., k]).all()
+    }
+    flags = {"flag_values": np.arange(len(STATUSES), dtype=np.int8), "flag_meanings": " ".join(STATUSES)}
+    named["status"] = (dims, status, {"long_name": "how the run ended", **flags})
+    named["reason"] = (dims, reason.astype(str), {"long_name": "why it did not complete"})
+    named["end_time"] = (dims, end, _words("s", "instant the run ended at"))
+    named["point"] = (("member", "variable"), draws.points, _words("1", "draws in the unit cube"))
+    return StudyResult(xarray.Dataset(named, _coordinates(study, draws), _identity(study)), study)
+
+
+def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
+    members = np.arange(1, len(draws) + 1)
+    found: dict[str, Any] = {
+        "member": ("member", members, _words("1", "member")),
+        "arm": ("arm", np.array([arm.name for arm in study.arms]), {"long_name": "what is compared"}),
+        "variable": (
+            "variable",
+            np.array([v.name for v in draws.variables], dtype=str),
+            {"long_name": "what is drawn"},
+        ),
+    }
+    drawn = [draws.values(draws.member(int(number))) for number in members]
+    for variable in draws.variables:
+        column = np.array([values[variable.name] for values in drawn])
+        found[variable.name] = ("member", column, _words(*_unit_and_meaning(study, variable.name)))
+    return found
+
+
+def _unit_and_meaning(study: Study, name: str) -> tuple[str, str]:
+    """Words of a column; a relative factor is a pure number."""
+    relative = {factor.key: factor.relative for factor in study.factors}
+    if name not in relative:
+        part = name.rpartition(".")[2]
+        units = {"start": "s", "over": "s", "cycle": "s", "effectiveness": "1", "duty": "1"}
+        return units.get(part, ""), f"{part} of the fault"
+    field = locate(Scenario, [int(s) - 1 if s.isdecimal() else s for s in _untagged(name)]).field
+    meaning = (field.description if field else "") or name
+    return ("1", f"factor on: {meaning}") if relative[name] else (word(field, "unit"), meaning)
+
+
+def _untagged(key: str) -> Sequence[str]:
+    """A key's steps, or none where it runs through kinds of tables, whose words depend on the kind."""
+    steps = key.split(".")
+    return steps if not any(s in ("law", "payload_force", "vessel_motion", "winch", "initial") for s in steps) else ()
+
+
+def _words(unit: str, meaning: str) -> dict[str, str]:
+    return {"units": unit, "long_name": meaning}
+
+
+def _identity(study: Study) -> dict[str, str | int]:
+    return {
+        "title": f"Umbilical study {study.name}",
+        "kind": KIND,
+        "result_schema": RESULT_SCHEMA,
+        "convention": CONVENTION,
+        "study": study.to_toml(),
+        "study_hash": study.hash,
+        "limits": json.dumps(study.limits, sort_keys=True),
+        "version_umbilical": __version__,
+        "version_numpy": np.__version__,
+        "version_numba": version("numba"),
+        "version_python": ".".join(platform.python_version_tuple()[:2]),
+    }
+
+
+def open_study(path: str | os.PathLike[str]) -> StudyResult:
+    """A stored study.
+
+    Raises:
+        FileError: missing, damaged, no study's result, or of a study this version refuses.
+    """
+    from umbilical.errors import ScenarioError
+    from umbilical.scenario.document import read
+    from umbilical.studies.load import admit_study
+
+    data = _open(path)
+    try:
+        origin = f"{path}: the study inside"
+        return StudyResult(data, admit_study(read(data.attrs["study"], origin), origin))
+    except ScenarioError as error:
+        raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
+
+
+def study_of_file(path: str | os.PathLike[str]) -> str:
+    """TOML text of the study a result came from; raises as :func:`open_study`."""
+    return _open(path).attrs["study"]
+
+
+def is_study_file(path: str | os.PathLike[str]) -> bool:
+    """Whether a result file is a study's; raises FileError for what is no result."""
+    return from_netcdf(files.read(path), str(path)).attrs.get("kind") == KIND
+
+
+def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
+    data = from_netcdf(files.read(path), str(path))
+    if data.attrs.get("kind") != KIND:
+        raise FileError(f"{path}: this is the result of a run, not of a study")
+    return data

@@ -1,0 +1,108 @@
+"""The row a member leaves in a study: for each arm how it ended, and its metrics."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from umbilical.engine.simulate import Outcome, measure, simulate
+from umbilical.errors import ControllerError, FileError, ScenarioError
+from umbilical.quantities import METRICS
+from umbilical.scenario import Scenario
+from umbilical.studies.members import Draws, Member
+
+STATUSES = ("COMPLETED", "DIVERGED", "REFUSED", "FAILED")
+"""How a member may end; a refused one was no possible scenario, a failed one had a controller that failed."""
+NAMES = tuple(name for name in METRICS if name not in ("energy_balance_residual", "grid_loss"))
+"""Metrics of a row: all but those of the power balance, which need stored fields."""
+
+
+class Cell(NamedTuple):
+    """One member in one arm; ``metrics`` in the order of :data:`NAMES`, not a number where there is none."""
+
+    status: str
+    reason: str
+    end_time: float
+    metrics: tuple[float, ...]
+
+
+class Row(NamedTuple):
+    """One member: its number and a cell for each arm; stored runs as NetCDF where they were asked for."""
+
+    number: int
+    cells: tuple[Cell, ...]
+    runs: tuple[bytes | None, ...] = ()
+
+
+def from_entry(entry: Any) -> Row:
+    """The row of a line of a journal, which holds a row's first two fields."""
+    number, cells = entry
+    return Row(number, tuple(Cell(status, reason, end, tuple(metrics)) for status, reason, end, metrics in cells))
+
+
+def run_member(draws: Draws, member: Member) -> Row:
+    """Simulate one member in every arm. Whatever becomes of it, it is a row.
+
+    >>> from umbilical.studies.load import load_study
+    >>> draws = Draws(load_study("fault-map").replace({"scenario.duration": 0.1, "changes": {"grid.elements": 8}}))
+    >>> [cell.status for cell in run_member(draws, draws.member(1)).cells]
+    ['COMPLETED', 'COMPLETED']
+    """
+    stored = draws.study.trajectories.keep == "all"
+    found = [_run_cell(draws, member, arm, stored) for arm in range(len(draws.study.arms))]
+    return Row(member.number, tuple(cell for cell, _ in found), tuple(run for _, run in found) if stored else ())
+
+
+def _run_cell(draws: Draws, member: Member, arm: int, stored: bool) -> tuple[Cell, bytes | None]:
+    try:
+        scenario = draws.scenario(member, arm)
+        controller = make_controller(draws.study.arms[arm].controller, scenario)
+        if stored:
+            return _stored(scenario, controller)
+        return _cell(measure(scenario, controller)), None
+    except ScenarioError as error:
+        problem = error.problems[0]
+        return _without_metrics("REFUSED", f"{problem.key} = {problem.value}: allowed is {problem.bound}"), None
+    except ControllerError as error:
+        return _without_metrics("FAILED", str(error)), None
+    except Exception as error:  # a study of a thousand must not end with its seven hundred and thirty-first
+        return _without_metrics("FAILED", f"{type(error).__name__}: {error}"), None
+
+
+def _stored(scenario: Scenario, controller: Any) -> tuple[Cell, bytes]:
+    from umbilical.formats import to_netcdf
+
+    run = simulate(scenario, controller)
+    return _cell(Outcome(run.status, run.reason, run.end_time, run.metrics)), to_netcdf(run.data)
+
+
+def _cell(outcome: Outcome) -> Cell:
+    metrics = tuple(float(outcome.metrics.get(name, float("nan"))) for name in NAMES)
+    return Cell(outcome.status.name, outcome.reason, float(outcome.end_time), metrics)
+
+
+def _without_metrics(status: str, reason: str) -> Cell:
+    return Cell(status, reason, 0.0, (float("nan"),) * len(NAMES))
+
+
+def make_controller(path: str | None, scenario: Scenario) -> Any:
+    """The Python controller an arm names as ``module:function``, made from the member's scenario; None for none.
+
+    Raises:
+        FileError: there is no such module or function.
+    """
+    if path is None:
+        return None
+    return _factory(path)(scenario)
+
+
+def _factory(path: str) -> Callable[[Scenario], Any]:
+    module, _, name = path.partition(":")
+    if "" not in sys.path:
+        sys.path.append("")  # controllers usually lie in the folder one works in
+    try:
+        return getattr(import_module(module), name)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise FileError(f"{path}: no such controller ({error}); name it as module:function") from error

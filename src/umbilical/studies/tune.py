@@ -1,0 +1,253 @@
+"""Search over gains against the distribution of a study, with conditions; the result is a change of the scenario."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from contextlib import nullcontext
+from dataclasses import dataclass
+from math import exp, log
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from umbilical.admission import admit, load, preset_names
+from umbilical.analysis.paired import quantile
+from umbilical.errors import Problem, ScenarioError
+from umbilical.scenario.document import look_up, override, validate
+from umbilical.scenario.problems import nearest
+from umbilical.studies.constraints import CONSTRAINTS, Constraint
+from umbilical.studies.engines import Engine, default_jobs
+from umbilical.studies.members import arm_data
+from umbilical.studies.results import StudyResult
+from umbilical.studies.search import Point, Verdict, choose, front
+from umbilical.studies.store import Store, open_store
+from umbilical.studies.study import Arm, Gain, Objective, Study, Tuning
+from umbilical.studies.sweep import default_engine, sweep
+
+Progress = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One set of gains, by dotted key, and what came of it."""
+
+    gains: Mapping[str, float]
+    verdict: Verdict
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """The result of a search.
+
+    Attributes:
+        study: what was tuned.
+        optimiser: ``optuna`` or ``scipy``.
+        conditions: names of the conditions, in the order of a verdict's violations.
+        trials: everything tried, in order.
+        front: the trials no other beats, by the first objective; one objective: the best alone.
+    """
+
+    study: Study
+    optimiser: str
+    conditions: tuple[str, ...]
+    trials: tuple[Trial, ...]
+
+    @property
+    def front(self) -> tuple[Trial, ...]:
+        """Trials that keep every condition and that no other beats in every objective."""
+        return tuple(self.trials[k] for k in front([trial.verdict for trial in self.trials]))
+
+    def document(self) -> dict[str, Any]:
+        """As plain data, the same for the same search."""
+        best = self.front
+        return {
+            "study": self.study.name,
+            "study_hash": self.study.hash,
+            "optimiser": self.optimiser,
+            "objectives": [name_of(o) for o in tuning_of(self.study).objectives],
+            "conditions": list(self.conditions),
+            "front": [_plain(trial) for trial in best],
+            "trials": [_plain(trial) for trial in self.trials],
+        }
+
+    def patch(self, trial: Trial) -> str:
+        """TOML of a scenario with these gains: what the tuned arm and the gains change of the study's scenario."""
+        return to_patch(self.study, trial.gains)
+
+
+def tune(
+    study: Study,
+    folder: str | os.PathLike[str] | None = None,
+    *,
+    optimiser: str = "auto",
+    engine: Engine | None = None,
+    constraints: Mapping[str, Constraint] | None = None,
+    resume: bool = False,
+    force: bool = False,
+    progress: Progress = lambda share: None,
+) -> Tuned:
+    """Search for the gains with which a study's members do best.
+
+    Args:
+        study: with a section ``tuning``.
+        folder: where trials are kept as they go, ``tuning.json`` and ``tuned.toml`` in the end; None keeps nothing.
+        optimiser: ``optuna``, ``scipy``, or ``auto`` for the first that is installed.
+        engine: who runs the members of a trial; all cores of this machine by default.
+        constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
+        resume: go on with what is in the folder, to the same bytes.
+        force: begin anew.
+        progress: called with the share done, 0 to 1.
+
+    Raises:
+        ScenarioError: the study has no section ``tuning``, or a condition nobody knows.
+        MissingPartnerError: Optuna was asked for and is not installed.
+        OutputError, FileError: as :func:`~umbilical.studies.sweep.sweep`.
+    """
+    tuning, (name, search) = tuning_of(study), choose(optimiser)
+    known = {**CONSTRAINTS, **(constraints or {})}
+    kept = {name: _known(known, name) for name in tuning.constraints}
+    engine = engine or default_engine(study, default_jobs())
+    task = f"tune {name}"
+    opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
+    with opened as store:
+        trials = _Trials(study, kept, engine, store, progress)
+        search(trials.judge, len(tuning.gains), len(tuning.objectives), tuning.trials, study.seed)
+        found = Tuned(study, name, ("admitted", *kept, "completes"), tuple(trials.all))
+        if store is not None:
+            _keep(store, found)
+    return found
+
+
+class _Trials:
+    """Judges points and remembers: what the journal knows is not run again."""
+
+    def __init__(
+        self,
+        study: Study,
+        conditions: Mapping[str, Constraint],
+        engine: Engine,
+        store: Store | None,
+        progress: Progress,
+    ) -> None:
+        self.all: list[Trial] = []
+        self._study, self._conditions, self._engine = study, conditions, engine
+        self._store, self._progress = store, progress
+        old = store.entries() if store else ()
+        self._known: dict[Point, Verdict] = {tuple(p): Verdict(tuple(v), tuple(b)) for p, v, b in old}
+
+    def judge(self, point: Point) -> Verdict:
+        """What comes of a point of the unit cube."""
+        gains = {g.key: _scaled(g, share) for g, share in zip(tuning_of(self._study).gains, point, strict=True)}
+        if (verdict := self._known.get(point)) is None:
+            verdict = judge(self._study, gains, self._conditions, self._engine)
+            self._known[point] = verdict
+            if self._store:
+                self._store.journal.append([point, *verdict])
+        self.all.append(Trial(gains, verdict))
+        self._progress(len(self.all) / tuning_of(self._study).trials)
+        return verdict
+
+
+def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Engine) -> Verdict:
+    """Conditions first, since they are cheap; the members are run only when the scenario keeps them all."""
+    tuning = tuning_of(study)
+    nothing = tuple(float("inf") for _ in tuning.objectives)
+    arm = Arm(name=tuning.arm, changes={**_arm(study).changes, **gains}, controller=_arm(study).controller)
+    try:
+        scenario = validate(arm_data(study, arm.changes), study.name)
+        admit(scenario)
+    except ScenarioError as error:
+        return Verdict(nothing, (float(len(error.problems)), *(0.0 for _ in conditions), 0.0))
+    violations = tuple(float(condition(scenario)) for condition in conditions.values())
+    if any(violation > 0.0 for violation in violations):
+        return Verdict(nothing, (0.0, *violations, 0.0))
+    result = sweep(study.model_copy(update={"arms": (arm,)}), engine=engine)
+    lost = float(np.mean(result["status"].values != 0))
+    return Verdict(tuple(statistic(result, o) for o in tuning.objectives), (0.0, *violations, lost))
+
+
+def statistic(result: StudyResult, objective: Objective) -> float:
+    """A statistic of a metric over the members; infinite as soon as it depends on one that did not complete."""
+    values = result.values(objective.metric, result.arms[0])
+    values = values[~np.isnan(values)]
+    if values.size == 0:
+        return float("inf")
+    if objective.statistic == "quantile":
+        return quantile(values, objective.share).value
+    return float(values.max() if objective.statistic == "worst" else values.mean())
+
+
+def tuning_of(study: Study) -> Tuning:
+    """The study's section ``tuning``.
+
+    Raises:
+        ScenarioError: it has none.
+    """
+    if study.tuning is None:
+        reason = "tuning needs gains, objectives and an arm"
+        cure = "add [tuning]; `umbilical presets gain-tuning` has one"
+        raise ScenarioError([Problem("tuning", "missing", "required here", reason, cure)], study.name)
+    return study.tuning
+
+
+def name_of(objective: Objective) -> str:
+    """An objective in words."""
+    share = f"{100 * objective.share:g} % quantile"
+    return f"{share if objective.statistic == 'quantile' else objective.statistic} of {objective.metric}"
+
+
+def to_patch(study: Study, gains: Mapping[str, float]) -> str:
+    """TOML of the study's scenario with the tuned arm's changes and the gains; of a preset only what differs."""
+    import tomlkit
+
+    changes = {**_arm(study).changes, **gains}
+    base = study.scenario
+    data = override(base.to_dict(), {**changes, "name": f"{base.name}-tuned"[:80]}, study.name)
+    if base.name not in preset_names() or load(base.name) != base:
+        return validate(data, study.name).to_toml()
+    patch: dict[str, Any] = {"extends": base.name, "name": data["name"]}
+    for key in changes:
+        *tables, last = _up_to_a_list(key)
+        table = patch
+        for step in tables:
+            table = table.setdefault(step, {})
+        table[last] = look_up(data, ".".join((*tables, last)))
+    return tomlkit.dumps(patch)
+
+
+def _up_to_a_list(key: str) -> list[str]:
+    """Steps of a key; a list is always given whole."""
+    steps = key.split(".")
+    return steps[: next((k for k, step in enumerate(steps) if step.isdecimal()), len(steps))]
+
+
+def _keep(store: Store, found: Tuned) -> None:
+    store.save((json.dumps(found.document(), indent=1) + "\n").encode(), "tuning.json")
+    if found.front:
+        store.save(found.patch(found.front[0]).encode(), "tuned.toml")
+
+
+def _plain(trial: Trial) -> dict[str, Any]:
+    finite = [value if np.isfinite(value) else None for value in trial.verdict.values]
+    return {"gains": dict(trial.gains), "values": finite, "violations": list(trial.verdict.violations)}
+
+
+def _arm(study: Study) -> Arm:
+    return next(arm for arm in study.arms if arm.name == tuning_of(study).arm)
+
+
+def _scaled(gain: Gain, share: float) -> float:
+    if gain.scale == "log":
+        return exp(log(gain.low) + share * (log(gain.high) - log(gain.low)))
+    return gain.low + share * (gain.high - gain.low)
+
+
+def _known(known: Mapping[str, Constraint], name: str) -> Constraint:
+    if name not in known:
+        there = f"one of {', '.join(known)}" if known else "none in this version"
+        cure = nearest(name, known) if known else "drop it"
+        raise ScenarioError([Problem("tuning.constraints", f'"{name}"', there, "no such condition is known", cure)])
+    return known[name]

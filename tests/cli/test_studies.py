@@ -1,0 +1,129 @@
+"""``sweep``, ``member``, ``tune``, and what ``show`` and ``plot`` make of a study."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.support.studies import small_study
+from umbilical import load, simulate
+from umbilical.studies.sweep import sweep
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("study") / "small.toml"
+    file.write_text(small_study(members=6).to_toml())
+    return file
+
+
+@pytest.fixture(scope="module")
+def result(study: Path) -> Path:
+    sweep(small_study(members=6), study.parent / "out")
+    return study.parent / "out" / "study.nc"
+
+
+def test_a_sweep_says_what_it_found_and_where(umbilical, study, result, tmp_path):
+    done = umbilical("sweep", study, "--out", tmp_path / "out", "--jobs", 2)
+    assert (done.code, done.err) == (0, "")
+    assert "6 members in 2 arms" in done.out
+    assert f"result: {tmp_path / 'out' / 'study.nc'}" in done.out
+    assert (tmp_path / "out" / "study.nc").read_bytes() == result.read_bytes()
+    again = umbilical("sweep", study, "--out", tmp_path / "out")
+    assert again.code == 4
+    assert "--resume" in again.err
+    assert umbilical("sweep", study, "--out", tmp_path / "out", "--resume").out == done.out
+    assert umbilical("sweep", study, "--set", "seed=3", "--out", tmp_path / "out", "--resume").code == 2
+
+
+def test_json_of_a_sweep_is_one_object(umbilical, study, tmp_path):
+    document = umbilical("sweep", study, "--out", tmp_path / "out", "--json").document()
+    assert document["members"] == 6
+    assert document["endings"]["PD"]["COMPLETED"] == 6
+    assert document["metrics"]["tip_peak"]["proposed"]["compared"]["ratio"]["high"] > 0.0
+    assert set(document["limits"]) == {"tip_peak"}
+
+
+def test_every_problem_of_a_study_comes_as_data(umbilical, study):
+    done = umbilical("sweep", study, "--set", "members=0", "--set", "design=halton", "--json")
+    assert done.code == 2
+    assert {problem["key"] for problem in done.document()["problems"]} == {"members", "design"}
+
+
+def test_the_size_of_complete_runs_is_told_before_the_start(umbilical, study, tmp_path):
+    done = umbilical("sweep", study, "--set", "trajectories.keep=all", "--set", "members=2", "--out", tmp_path / "out")
+    assert "MB will be stored" in done.err
+    assert len(list((tmp_path / "out" / "runs").iterdir())) == 4
+
+
+def test_two_engines_at_once_are_refused(umbilical, study, tmp_path):
+    assert umbilical("sweep", study, "--dask", "local", "--processes", "--out", tmp_path / "out").code == 2
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_member_can_be_run_alone(umbilical, result, tmp_path):
+    done = umbilical("member", result, 4, "--arm", "proposed", "--out", tmp_path / "m.toml")
+    assert done.code == 0
+    found = umbilical("show", result, "--json").document()
+    assert found["members"] == 6
+    alone = simulate(load(tmp_path / "m.toml")).metrics["tip_peak"]
+    import xarray
+
+    row = xarray.open_dataset(result, engine="h5netcdf")["tip_peak"].sel(member=4, arm="proposed")
+    assert alone == float(row)
+    assert umbilical("member", result, 7).code == 2
+    assert umbilical("member", result, 1, "--arm", "PDD").code == 2
+
+
+def test_show_reads_studies_and_their_results(umbilical, study, result):
+    assert "6 members (sobol) in 2 arms of 'paper'" in umbilical("show", study).out
+    assert "payload.mass" in umbilical("show", "paper-robustness").out
+    assert umbilical("show", "fault-map", "--json").document()["study"]["name"] == "fault-map"
+    shown = umbilical("show", result, "--metric", "mid_rms", "--against", "proposed")
+    assert "mid_rms" in shown.out
+    assert "against 'proposed'" in shown.out
+    assert umbilical("show", result, "--metric", "mid").code == 2
+    assert umbilical("show", result, "--against", "nobody").code == 2
+    assert umbilical("show", "paper", "--metric", "mid_rms").code == 2
+    assert "too few" in umbilical("show", result, "--sensitivity", "tip_peak").out
+
+
+@pytest.mark.parametrize("kind", ["overview", "distribution", "comparison", "map"])
+def test_plot_draws_studies(umbilical, result, tmp_path, kind):
+    target = tmp_path / f"{kind}.png"
+    assert umbilical("plot", result, "--kind", kind, "--metric", "tip_rms", "--out", target).code == 0
+    assert target.read_bytes().startswith(b"\x89PNG")
+
+
+def test_plot_tells_runs_from_studies(umbilical, result, stored, tmp_path):
+    wrong = umbilical("plot", result, "--kind", "tip", "--out", tmp_path / "a.png")
+    assert (wrong.code, "of a study there are" in wrong.err) == (2, True)
+    other = umbilical("plot", stored["free"], "--kind", "map", "--out", tmp_path / "a.png")
+    assert (other.code, "of a run there are" in other.err) == (2, True)
+    assert umbilical("plot", result, "--metric", "y", "--out", tmp_path / "a.png").code == 2
+    assert umbilical("plot", result, "--kind", "sensitivity", "--out", tmp_path / "a.png").code == 2
+
+
+def test_presets_list_print_and_copy_studies(umbilical, tmp_path):
+    assert "paper-robustness" in umbilical("presets").out
+    assert 'name = "fault-map"' in umbilical("presets", "fault-map").out
+    copied = umbilical("presets", "--copy", "gain-tuning", tmp_path / "mine.toml")
+    assert "umbilical sweep" in copied.out
+    assert umbilical("show", tmp_path / "mine.toml").code == 0
+
+
+def test_tune_ends_with_a_scenario_to_run(umbilical, tmp_path):
+    small = ["scenario.duration=0.3", "scenario.grid.elements=8", "members=2", "tuning.trials=5"]
+    changes = [word for change in small for word in ("--set", change)]
+    done = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--json")
+    assert done.code == 0
+    document = done.document()
+    assert document["front"]
+    assert json.loads((tmp_path / "out" / "tuning.json").read_text())["trials"] == document["trials"]
+    assert umbilical("run", tmp_path / "out" / "tuned.toml").code == 0
+    again = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--resume")
+    assert "no other trial beats these" in again.out
+    assert umbilical("tune", "fault-map", "--out", tmp_path / "none").code == 2
+    assert not (tmp_path / "none").exists()

@@ -1,0 +1,176 @@
+"""A sweep: rows for whatever happens, the same bits whoever works, results that explain themselves."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+
+import numpy as np
+import pytest
+import xarray
+
+from tests.support.studies import small_study
+from umbilical.engine.simulate import simulate
+from umbilical.errors import FileError
+from umbilical.formats import to_netcdf
+from umbilical.run import open_run
+from umbilical.studies import engines, rows
+from umbilical.studies.cluster import connect, dask, on_client
+from umbilical.studies.members import Draws
+from umbilical.studies.results import assemble, open_study
+from umbilical.studies.sweep import disk_needed, sweep, worst
+
+ENGINES = {
+    "two threads": engines.threads(2),
+    "many threads": engines.threads(7),
+    "processes": engines.processes(2),
+    "dask": dask("local", 3),
+}
+
+
+@pytest.fixture(scope="module")
+def study():
+    return small_study()
+
+
+@pytest.fixture(scope="module")
+def reference(study):
+    return to_netcdf(sweep(study, engine=engines.threads(1)).data)
+
+
+@pytest.mark.parametrize("name", ENGINES)
+def test_the_result_does_not_depend_on_who_works(study, reference, name):
+    assert to_netcdf(sweep(study, engine=ENGINES[name]).data) == reference
+
+
+def test_nor_on_the_order(study, reference):
+    draws = Draws(study)
+    backwards = [rows.run_member(draws, draws.member(number)) for number in range(len(draws), 0, -1)]
+    assert to_netcdf(assemble(study, backwards).data) == reference
+
+
+def test_another_seed_is_another_result(reference):
+    assert to_netcdf(sweep(small_study(seed=1)).data) != reference
+
+
+def test_a_killed_dask_worker_costs_nothing(reference):
+    """Three workers, one of which is killed while members are under way."""
+    slow = small_study(scenario__duration=4.0, members=24)
+    expected = to_netcdf(sweep(slow).data)
+    with connect("local", 3) as client:
+        client.wait_for_workers(3)
+        victim = next(iter(client.run(os.getpid).values()))
+        draws, killed = Draws(slow), []
+
+        def kill():
+            time.sleep(0.3)
+            os.kill(victim, 9)
+            killed.append(victim)
+
+        killer = threading.Thread(target=kill)
+        killer.start()
+        found = list(on_client(client, draws, (draws.member(n) for n in range(1, len(draws) + 1))))
+        killer.join()
+    assert killed
+    assert sorted(row.number for row in found) == list(range(1, 25))
+    assert to_netcdf(assemble(slow, found).data) == expected
+
+
+def test_no_scheduler_is_said_plainly(study):
+    with pytest.raises(FileError, match="there is no Dask scheduler"):
+        sweep(study, engine=dask("not-an-address", 1))
+
+
+def test_a_member_alone_is_its_row(study, reference):
+    result = sweep(study)
+    for member, arm in ((3, "PD"), (7, "proposed")):
+        run = simulate(result.scenario(member, arm))
+        row = result.data.sel(member=member, arm=arm)
+        for name in result.metrics:
+            assert float(row[name]) == run.metrics[name], name
+
+
+def test_what_goes_wrong_is_a_row_with_its_reason(monkeypatch):
+    """Some members cannot be, some are torn away, some meet a bug of ours; the others do not notice."""
+    mass = {"kind": "choice", "values": [-1.0, 500.0, 400.0, 450.0]}
+    force = {"kind": "choice", "values": [100.0, 50.0, 1e7, 0.0]}
+    study = small_study(
+        design="grid",
+        campaigns=[],
+        scenario__duration=1.0,
+        factors=[
+            {"key": "payload.mass", "distribution": mass},
+            {"key": "environment.payload_force.1.value", "distribution": force},
+        ],
+        arms=[{"name": "free", "changes": {"control.law.kind": "none"}}],
+    )
+    measure = rows.measure
+
+    def broken(scenario, controller):
+        if scenario.payload.mass == 450.0:
+            raise RuntimeError("out of luck")
+        return measure(scenario, controller)
+
+    monkeypatch.setattr(rows, "measure", broken)
+    result = sweep(study, engine=engines.threads(2))
+    status = result["status"].values[:, 0].reshape(4, 4)
+    reasons = result["reason"].values[:, 0].reshape(4, 4)
+    assert status.tolist() == [[2] * 4, [0, 0, 1, 0], [0, 0, 1, 0], [3] * 4]
+    assert "payload.mass" in reasons[0, 0] or "mass" in reasons[0, 0]
+    assert "slope reached" in reasons[1, 2]
+    assert reasons[3, 0] == "RuntimeError: out of luck"
+    assert np.isnan(result["tip_peak"].values.reshape(4, 4)[0]).all()
+    assert (result["end_time"].values.reshape(4, 4)[1:3, 2] < 1.0).all()
+
+
+def test_a_python_controller_runs_in_processes_and_threads_alike(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "soft.py").write_text(
+        "from umbilical import Command\n"
+        "class Spring:\n"
+        "    def __init__(self, scenario): self.period = scenario.control.period\n"
+        "    def start(self, measurement): return None\n"
+        "    def update(self, t, measurement, state):\n"
+        "        return Command(thrust=-100 * measurement.tip_displacement), state\n"
+    )
+    study = small_study(members=3, arms=[{"name": "mine", "controller": "soft:Spring"}])
+    found = [to_netcdf(sweep(study, engine=engine(2)).data) for engine in (engines.threads, engines.processes)]
+    assert found[0] == found[1]
+    missing = sweep(study.replace({"arms.1.controller": "soft:Sprung"}), engine=engines.threads(1))
+    assert missing["status"].values.tolist() == [[3]] * 3
+    assert "no such controller" in str(missing["reason"].values[0, 0])
+
+
+def test_xarray_alone_reads_the_result(tmp_path, study):
+    sweep(study, tmp_path / "out")
+    data = xarray.open_dataset(tmp_path / "out" / "study.nc", engine="h5netcdf")
+    assert data["tip_peak"].dims == ("member", "arm")
+    assert data["tip_peak"].attrs["units"] == "m"
+    assert data["payload.mass"].dims == ("member",)
+    assert list(data["arm"].values) == ["PD", "proposed"]
+    assert open_study(tmp_path / "out" / "study.nc").study == study
+    with pytest.raises(FileError, match="result of a study, not of a run"):
+        open_run(tmp_path / "out" / "study.nc")
+
+
+def test_complete_runs_are_kept_on_request_and_their_size_is_told(tmp_path):
+    all_of_them = small_study(members=3, trajectories={"keep": "all"})
+    sweep(all_of_them, tmp_path / "all")
+    stored = sorted((tmp_path / "all" / "runs").iterdir())
+    assert len(stored) == 6
+    assert sum(file.stat().st_size for file in stored) == pytest.approx(disk_needed(Draws(all_of_them)), rel=0.05)
+    worst_two = small_study(members=5, trajectories={"keep": "worst", "count": 2})
+    result = sweep(worst_two, tmp_path / "worst")
+    names = {
+        f"member-{n:06d}-arm-{k}.nc" for k, a in enumerate(result.arms, 1) for n in worst(result, "tip_peak", a, 2)
+    }
+    assert {file.name for file in (tmp_path / "worst" / "runs").iterdir()} == names
+    run = open_run(tmp_path / "worst" / "runs" / sorted(names)[0])
+    member = int(sorted(names)[0].split("-")[1])
+    assert run.metrics["tip_peak"] == float(result.data["tip_peak"].sel(member=member)[0])
+
+
+def test_the_power_balance_is_left_out_of_rows_only(study):
+    result, run = sweep(study), simulate(Draws(study).scenario(Draws(study).member(1), 0))
+    assert set(run.metrics) - set(result.metrics) <= {"energy_balance_residual", "grid_loss"}

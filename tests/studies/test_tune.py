@@ -1,0 +1,146 @@
+"""Searches find known optima, keep their conditions, and go on where they were cut."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+
+from tests.support.studies import small_study
+from umbilical import load
+from umbilical.errors import ScenarioError
+from umbilical.studies import engines, tune
+from umbilical.studies.load import load_study
+from umbilical.studies.search import Verdict, choose, front
+from umbilical.studies.study import Study
+
+SEARCHES = pytest.mark.parametrize("name", ["optuna", "scipy"])
+TUNING = {
+    "arm": "PD",
+    "trials": 12,
+    "gains": [{"key": "control.law.position_gain", "low": 10.0, "high": 1000.0, "scale": "log"}],
+    "objectives": [{"metric": "tip_peak", "statistic": "worst"}],
+}
+
+
+def tuned_study(**changes: object) -> Study:
+    return small_study(members=3, scenario__duration=0.5, tuning=TUNING | changes)
+
+
+@SEARCHES
+def test_a_known_minimum_is_found(name):
+    tried = []
+
+    def bowl(point):
+        tried.append(((point[0] - 0.3) ** 2 + (point[1] - 0.8) ** 2, point))
+        return Verdict((tried[-1][0],), ())
+
+    choose(name)[1](bowl, 2, 1, 120, 1)
+    assert min(tried)[1] == pytest.approx((0.3, 0.8), abs=0.1)
+    assert len(tried) == 120
+
+
+@SEARCHES
+def test_a_condition_moves_the_minimum_to_its_border(name):
+    found = []
+
+    def judge(point):
+        verdict = Verdict((point[0],), (0.5 - point[0],))
+        found.append((point[0], verdict))
+        return verdict
+
+    choose(name)[1](judge, 1, 1, 80, 1)
+    best = front([verdict for _, verdict in found])
+    assert 0.5 <= found[best[0]][0] < 0.56
+    assert min(x for x, _ in found) < 0.5  # it looked there, and what it saw does not count
+
+
+@SEARCHES
+def test_two_objectives_leave_a_front(name):
+    """f = x^2, (x - 1)^2: every x from 0 to 1 is on the front."""
+    found = []
+
+    def judge(point):
+        verdict = Verdict((1e-3 + point[0] ** 2, 1e-3 + (point[0] - 1.0) ** 2), ())
+        found.append(verdict)
+        return verdict
+
+    choose(name)[1](judge, 1, 2, 80, 1)
+    chosen = [found[k].values for k in front(found)]
+    assert chosen == sorted(chosen)
+    assert [b for _, b in chosen] == sorted((b for _, b in chosen), reverse=True)
+    assert chosen[0][0] < 0.05
+    assert chosen[-1][1] < 0.05
+
+
+@SEARCHES
+def test_a_stiffer_spring_keeps_the_payload_nearer(name):
+    found = tune.tune(tuned_study(), optimiser=name, engine=engines.threads(2))
+    gains = [trial.gains["control.law.position_gain"] for trial in found.trials]
+    assert len(found.front) == 1
+    assert found.front[0].gains["control.law.position_gain"] == max(gains)
+
+
+@SEARCHES
+def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, name, monkeypatch):
+    study = tuned_study()
+    tune.tune(study, tmp_path / "whole", optimiser=name)
+    text = (tmp_path / "whole" / "journal.txt").read_bytes()
+    (tmp_path / "cut").mkdir()
+    shutil.copy(tmp_path / "whole" / "manifest.json", tmp_path / "cut")
+    (tmp_path / "cut" / "journal.txt").write_bytes(text[: int(0.6 * len(text))])
+    calls, judge = [], tune.judge
+    monkeypatch.setattr(tune, "judge", lambda *a: calls.append(a) or judge(*a))
+    tune.tune(study, tmp_path / "cut", optimiser=name, resume=True)
+    assert 0 < len(calls) < 12
+    for file in ("tuning.json", "tuned.toml"):
+        assert (tmp_path / "cut" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
+
+
+def test_conditions_are_asked_first_and_named(monkeypatch):
+    """Gains above 100 are forbidden: no member runs with them, and none is chosen."""
+    study = tuned_study(constraints=["soft"])
+    seen, sweep = [], tune.sweep
+    monkeypatch.setattr(tune, "sweep", lambda s, **k: seen.append(s.arms[0].changes) or sweep(s, **k))
+    soft = {"soft": lambda scenario: scenario.control.law.position_gain - 100.0}
+    found = tune.tune(study, constraints=soft, engine=engines.threads(2))
+    assert found.conditions == ("admitted", "soft", "completes")
+    assert seen
+    assert all(changes["control.law.position_gain"] <= 100.0 for changes in seen)
+    assert len(seen) < len(found.trials)
+    assert found.front[0].gains["control.law.position_gain"] <= 100.0
+
+
+def test_gains_that_are_refused_are_no_answer():
+    """Above 5e5 N s/m the sampled velocity gain overshoots within a period; admission says so."""
+    gains = [{"key": "control.law.velocity_gain", "low": 1.0, "high": 5e6, "scale": "log"}]
+    found = tune.tune(tuned_study(gains=gains, trials=20), engine=engines.threads(2))
+    refused = [trial for trial in found.trials if trial.verdict.violations[0] > 0.0]
+    assert refused
+    assert all(trial.gains["control.law.velocity_gain"] >= 5e5 for trial in refused)
+    assert found.front[0].gains["control.law.velocity_gain"] < 5e5
+
+
+def test_the_patch_is_a_scenario_with_the_gains(tmp_path):
+    study = load_study("gain-tuning")
+    (tmp_path / "tuned.toml").write_text(tune.to_patch(study, {"control.law.slope_gain": 2.5}))
+    assert 'extends = "paper"' in (tmp_path / "tuned.toml").read_text()
+    expected = load("paper", {"control.law.slope_gain": 2.5, "name": "paper-tuned"})
+    assert load(tmp_path / "tuned.toml") == expected
+
+
+def test_a_patch_of_a_list_and_of_a_changed_scenario(tmp_path):
+    study = tuned_study()
+    (tmp_path / "tuned.toml").write_text(tune.to_patch(study, {"motors.2.thrust_coefficient": 0.9}))
+    tuned = load(tmp_path / "tuned.toml")
+    assert [motor.thrust_coefficient for motor in tuned.motors] == [1.2, 0.9]
+    assert (tuned.duration, tuned.control.law.kind) == (0.5, "pd")
+
+
+def test_what_tuning_lacks_is_said():
+    with pytest.raises(ScenarioError, match="tuning needs gains"):
+        tune.tune(small_study())
+    with pytest.raises(ScenarioError, match="no such condition"):
+        tune.tune(tuned_study(constraints=["beauty"]))
+    with pytest.raises(ScenarioError, match=r"tuning\.arm"):
+        tuned_study(arm="PDD")
