@@ -54,4 +54,5 @@ def shape(kind: Any, metavar: str | None) -> str:
     """What stands behind an option: its choices, or what it is; nothing behind a switch."""
     if get_origin(kind) is Literal:
         return "|".join(get_args(kind))
-    return metavar or ("" if kind is bool else kind.__name__.upper())
+    said = next((part for part in get_args(kind) if part is not type(None)), kind)  # X of ``X | None``
+    return metavar or ("" if said is bool else said.__name__.upper())
