@@ -13,7 +13,22 @@ from umbilical.errors import UmbilicalError
 from umbilical.run import Status
 
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
-COMMANDS = ("run", "show", "compare", "export", "plot", "certify", "presets", "schema", "doctor", "bench", "verify", "sweep", "member", "tune")
+COMMANDS = (
+    "run",
+    "show",
+    "compare",
+    "export",
+    "plot",
+    "certify",
+    "presets",
+    "schema",
+    "doctor",
+    "bench",
+    "verify",
+    "sweep",
+    "member",
+    "tune",
+)
 
 
 @pytest.mark.parametrize(

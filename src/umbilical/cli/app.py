@@ -11,7 +11,18 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, certifying, doctoring, drawing, listing, reading, running, sweeping, tuning, verifying
+from umbilical.cli import (
+    benching,
+    certifying,
+    doctoring,
+    drawing,
+    listing,
+    reading,
+    running,
+    sweeping,
+    tuning,
+    verifying,
+)
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 

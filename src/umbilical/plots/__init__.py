@@ -46,7 +46,6 @@ __all__ = [
     "plot_all_observers",
     "plot_cable",
     "plot_certificate",
-    "plot_convergence",
     "plot_comparison",
     "plot_convergence",
     "plot_distribution",
