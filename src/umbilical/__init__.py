@@ -27,10 +27,16 @@ if TYPE_CHECKING:
         plot_observers,
         plot_overview,
         plot_positions,
+        plot_study,
         plot_tip,
     )
     from umbilical.run import Run, Status, open_run
     from umbilical.scenario import Scenario
+    from umbilical.studies.load import load_study
+    from umbilical.studies.results import StudyResult, open_study
+    from umbilical.studies.study import Study
+    from umbilical.studies.sweep import sweep
+    from umbilical.studies.tune import tune
 
 __version__ = "0.1.0"
 
@@ -43,9 +49,13 @@ _HOMES = {
     "Run": "umbilical.run",
     "Scenario": "umbilical.scenario",
     "Status": "umbilical.run",
+    "Study": "umbilical.studies.study",
+    "StudyResult": "umbilical.studies.results",
     "certify": "umbilical.analysis.certificate",
     "load": "umbilical.admission",
+    "load_study": "umbilical.studies.load",
     "open_run": "umbilical.run",
+    "open_study": "umbilical.studies.results",
     "plot_cable": "umbilical.plots",
     "plot_certificate": "umbilical.plots",
     "plot_energy": "umbilical.plots",
@@ -53,9 +63,12 @@ _HOMES = {
     "plot_observers": "umbilical.plots",
     "plot_overview": "umbilical.plots",
     "plot_positions": "umbilical.plots",
+    "plot_study": "umbilical.plots",
     "plot_tip": "umbilical.plots",
     "preset_names": "umbilical.admission",
     "simulate": "umbilical.engine.simulate",
+    "sweep": "umbilical.studies.sweep",
+    "tune": "umbilical.studies.tune",
 }
 
 __all__ = [
@@ -66,9 +79,13 @@ __all__ = [
     "Run",
     "Scenario",
     "Status",
+    "Study",
+    "StudyResult",
     "certify",
     "load",
+    "load_study",
     "open_run",
+    "open_study",
     "plot_cable",
     "plot_certificate",
     "plot_energy",
@@ -76,9 +93,12 @@ __all__ = [
     "plot_observers",
     "plot_overview",
     "plot_positions",
+    "plot_study",
     "plot_tip",
     "preset_names",
     "simulate",
+    "sweep",
+    "tune",
 ]
 
 

@@ -44,13 +44,17 @@ def test_parts_add_up_to_the_loop():
 
 @pytest.mark.slow
 def test_every_row_is_measured():
-    found = measure_all(1)
+    found = measure_all(1, members=6)
     assert {row.name.strip() for row in found.rows} >= {
         "compiled loop, 50 s",
         "Python loop, 50 s",
         "numpy + scipy solve_ivp, 50 s",
         "umbilical run paper --json",
         "umbilical --help",
+        "1000 members, 2 threads",
+        "speed-up from 1 to 2 threads",
+        "1000 members, numpy + scipy",
+        "umbilical sweep, peak memory",
     }
     assert all(isinstance(row, Row) and np.isfinite(row.value) for row in found.rows)
     assert "numba" in found.headline

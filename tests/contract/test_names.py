@@ -18,9 +18,13 @@ NAMES = {
     "Run",
     "Scenario",
     "Status",
+    "Study",
+    "StudyResult",
     "certify",
     "load",
+    "load_study",
     "open_run",
+    "open_study",
     "plot_cable",
     "plot_certificate",
     "plot_energy",
@@ -28,9 +32,12 @@ NAMES = {
     "plot_observers",
     "plot_overview",
     "plot_positions",
+    "plot_study",
     "plot_tip",
     "preset_names",
     "simulate",
+    "sweep",
+    "tune",
 }
 
 

@@ -10,6 +10,7 @@ from tests.support.studies import small_study
 from umbilical import load
 from umbilical.errors import ScenarioError
 from umbilical.studies import engines, tune
+from umbilical.studies.constraints import CONSTRAINTS
 from umbilical.studies.load import load_study
 from umbilical.studies.search import Verdict, choose, front
 from umbilical.studies.study import Study
@@ -144,3 +145,11 @@ def test_what_tuning_lacks_is_said():
         tune.tune(tuned_study(constraints=["beauty"]))
     with pytest.raises(ScenarioError, match=r"tuning\.arm"):
         tuned_study(arm="PDD")
+
+
+def test_the_certificate_is_a_condition():
+    """Hauling in, a beta of 0.01 cannot be certified and one of 20 can; PD never."""
+    hauling = load("haul-in", {"control.law.slope_gain": 20.0})
+    assert CONSTRAINTS["certificate"](hauling) < 0.0
+    assert CONSTRAINTS["certificate"](hauling.replace({"control.law.slope_gain": 0.01})) > 0.0
+    assert CONSTRAINTS["certificate"](load("paper-pd")) > 0.0

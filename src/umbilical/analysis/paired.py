@@ -89,7 +89,7 @@ def compare(values: np.ndarray, reference: np.ndarray) -> Comparison:
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = np.where(equal, 1.0, one / other)
         difference = np.where(equal, 0.0, one - other)
-    wins = np.count_nonzero(one < other) + 0.5 * np.count_nonzero(equal)
+    wins = float(np.count_nonzero(one < other) + 0.5 * np.count_nonzero(equal))
     return Comparison(one.size, _bootstrap(ratio, 0.5), _bootstrap(difference, 0.5), share(wins, one.size))
 
 

@@ -13,6 +13,8 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from umbilical.bench.machine import machine, peak_of_children
+from umbilical.bench.rows import Row
+from umbilical.bench.study import memory_row, study_rows
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -33,25 +35,6 @@ VARIANTS: dict[str, dict[str, Any]] = {
 
 
 @dataclass(frozen=True)
-class Row:
-    """One measurement.
-
-    Attributes:
-        name: what was measured.
-        value: in ``unit``.
-        unit: ``s``, ``ms`` or ``MB``.
-        speed: simulated seconds per second, where that has a sense.
-        note: how it was measured.
-    """
-
-    name: str
-    value: float
-    unit: str
-    speed: float | None = None
-    note: str = ""
-
-
-@dataclass(frozen=True)
 class Bench:
     """All rows, and the machine they belong to."""
 
@@ -69,12 +52,17 @@ class Bench:
 
 
 def measure_all(
-    repeat: int = 15, *, cold: bool = False, progress: Callable[[float], None] = lambda share: None
+    repeat: int = 15,
+    *,
+    members: int = 40,
+    cold: bool = False,
+    progress: Callable[[float], None] = lambda share: None,
 ) -> Bench:
     """Measure every row.
 
     Args:
         repeat: runs of each variant of the compiled loop; medians count.
+        members: members of a study that are run; 0 leaves studies out.
         cold: also compile all kernels anew, in another process with an empty cache.
         progress: called with the share done, 0 to 1.
 
@@ -82,9 +70,9 @@ def measure_all(
         The rows; nothing is stored.
     """
     # Processes come first: what they need of memory is read from this process's children, while it is still small.
-    rows = _processes(cold)
+    rows = _processes(cold) + ([memory_row(members)] if members else [])
     progress(0.2)
-    rows = [*_compiled(repeat, progress), *_others(), *rows]
+    rows = [*_compiled(repeat, progress), *_others(members), *rows]
     progress(1.0)
     return Bench(machine(), tuple(rows))
 
@@ -151,8 +139,8 @@ def _parts(times: Mapping[str, Mapping[str, float]]) -> dict[str, float]:
     }
 
 
-def _others() -> list[Row]:
-    """The same run by other means."""
+def _others(members: int) -> list[Row]:
+    """The same run by other means, and a study of many."""
     import numpy as np
 
     from umbilical.admission import load
@@ -171,6 +159,7 @@ def _others() -> list[Row]:
     return [
         Row("Python loop, 50 s", python, "s", 50.0 / python, called),
         Row("numpy + scipy solve_ivp, 50 s", plain, "s", 50.0 / plain, script),
+        *(study_rows(members, plain) if members else []),
     ]
 
 

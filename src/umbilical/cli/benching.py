@@ -11,12 +11,14 @@ from umbilical.cli.speech import say, say_json, table
 
 def bench(
     repeat: Annotated[int, Option("--repeat", min=1, max=1000, help="Runs per row; the median counts.")] = 15,
+    members: Annotated[int, Option("--members", min=0, help="Members of a study that are run; 0 for none.")] = 40,
     cold: Annotated[bool, Option("--cold", help="Also compile everything anew, with an empty cache.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
 ) -> None:
     """Measure how long the paper's 50 s take here.
 
-    Rows: the compiled loop and its parts, the Python loop, and a plain numpy + scipy script of the same system.
+    Rows: the compiled loop and its parts, the Python loop, a plain numpy + scipy script of the same system, and
+    a study of a thousand such runs.
 
     \b
     examples
@@ -28,7 +30,7 @@ def bench(
 
     announce_compilation()
     with bar("measuring") as advance:
-        found = measure_all(repeat, cold=cold, progress=advance)
+        found = measure_all(repeat, members=members, cold=cold, progress=advance)
     if as_json:
         say_json(found.document())
     else:

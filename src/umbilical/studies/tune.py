@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
-from math import exp, log
+from math import exp, isnan, log
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +28,8 @@ from umbilical.studies.study import Arm, Gain, Objective, Study, Tuning
 from umbilical.studies.sweep import default_engine, sweep
 
 Progress = Callable[[float], None]
+_NO_ANSWER = 1e6
+"""Stands for the violation of a condition that gave no number."""
 
 
 @dataclass(frozen=True)
@@ -161,7 +163,8 @@ def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Con
         admit(scenario)
     except ScenarioError as error:
         return Verdict(nothing, (float(len(error.problems)), *(0.0 for _ in conditions), 0.0))
-    violations = tuple(float(condition(scenario)) for condition in conditions.values())
+    found = (float(condition(scenario)) for condition in conditions.values())
+    violations = tuple(_NO_ANSWER if isnan(violation) else violation for violation in found)
     if any(violation > 0.0 for violation in violations):
         return Verdict(nothing, (0.0, *violations, 0.0))
     result = sweep(study.model_copy(update={"arms": (arm,)}), engine=engine)

@@ -1,0 +1,62 @@
+"""What a study costs: a thousand members of one arm, what a second thread brings, and memory."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+from umbilical.bench.machine import peak_of_children
+from umbilical.bench.rows import Row
+
+if TYPE_CHECKING:
+    from umbilical.studies.study import Study
+
+THOUSAND = 1000
+_ARM = [{"name": "proposed"}]
+
+
+def study_rows(members: int, plain: float) -> list[Row]:
+    """Measure with some members, told for a thousand.
+
+    Args:
+        members: how many are run on one thread, and again on two.
+        plain: seconds the plain script takes for one run.
+    """
+    study = _one_arm(members)
+    _seconds(study.replace({"members": 4}), 2)  # what is loaded once
+    one, two = (_seconds(study, jobs) for jobs in (1, 2))
+    scaled = f"paper-robustness, one arm, metrics only; {members} members, scaled"
+    return [
+        Row("1000 members, 2 threads", two * THOUSAND / members, "s", 50.0 * members / two, scaled),
+        Row("  one member, 1 thread", 1e3 * one / members, "ms", 50.0 * members / one, "draws, checks, run, row"),
+        Row("  speed-up from 1 to 2 threads", one / two, "x"),
+        Row("1000 members, numpy + scipy", plain * THOUSAND, "s", 50.0 / plain, "one core, scaled"),
+    ]
+
+
+def memory_row(members: int) -> Row:
+    """Peak memory of a whole process that runs a study."""
+    arms = '[{name="proposed"}]'
+    with tempfile.TemporaryDirectory(prefix="umbilical-bench-") as folder:
+        command = ["sweep", "paper-robustness", "--set", f"members={members}", "--set", f"arms={arms}", "--jobs", "2"]
+        words = [sys.executable, "-m", "umbilical", *command, "--out", f"{folder}/out"]
+        subprocess.run(words, stdout=subprocess.DEVNULL, check=True)
+    return Row("umbilical sweep, peak memory", peak_of_children(), "MB", note=f"{members} members, 2 threads")
+
+
+def _one_arm(members: int) -> Study:
+    from umbilical.studies.load import load_study
+
+    return load_study("paper-robustness", {"members": members, "arms": _ARM})
+
+
+def _seconds(study: Study, jobs: int) -> float:
+    from umbilical.studies.engines import threads
+    from umbilical.studies.sweep import sweep
+
+    begun = perf_counter()
+    sweep(study, engine=threads(jobs))
+    return perf_counter() - begun
