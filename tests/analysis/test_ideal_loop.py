@@ -65,6 +65,12 @@ def test_constant_tension_in_closed_form() -> None:
     np.testing.assert_allclose(np.sort(modes.imag), np.arange(modes.size) * np.pi / travel, rtol=1e-9, atol=1e-9)
 
 
+def test_a_heavy_payload_is_the_limit_of_constant_tension() -> None:
+    """Bessel functions of huge arguments, which nearly cancel, against hyperbolic ones."""
+    heavy = PAPER._replace(m=1e7, k_a=1e9)
+    assert energy_rate(heavy, 500.0) == pytest.approx(energy_rate(heavy._replace(hanging=0.0), 500.0), rel=1e-3)
+
+
 def test_gain_of_the_wave_speed_leaves_no_mode_at_constant_tension() -> None:
     loop = PAPER._replace(hanging=0.0, c=0.0, beta=50.0)
     assert highest_modes_real_part(loop, 500.0) == -np.inf

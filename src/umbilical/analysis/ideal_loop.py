@@ -15,6 +15,7 @@ from umbilical.relations.formulas import tension
 
 NODES = 60
 """Chebyshev points of the matrix whose eigenvalues Newton's method starts from."""
+ITERATIONS, PRECISION = 30, 1e-13
 POLISHED = 8
 """Slowest modes that are followed to the exact root."""
 
@@ -81,9 +82,15 @@ def _travel(loop: Loop, length: float) -> float:
 
 
 def _root(loop: Loop, length: float, guess: complex) -> complex:
-    from scipy.optimize import newton
-
-    return complex(newton(lambda lam: characteristic(loop, length, lam), guess, tol=1e-13, maxiter=60))
+    """The secant method from a guess that is good to some digits; the guess itself if rounding leads it astray."""
+    before, now = guess * (1.0 + 1e-6) + 1e-12, guess
+    value_before, value = (characteristic(loop, length, lam) for lam in (before, now))
+    for _ in range(ITERATIONS):
+        if value == value_before or abs(now - before) <= PRECISION * abs(now):
+            break
+        before, now = now, now - value * (now - before) / (value - value_before)
+        value_before, value = value, characteristic(loop, length, now)
+    return now if abs(now - guess) < 0.1 * abs(guess) else guess
 
 
 def _matrix(loop: Loop, length: float) -> np.ndarray:
