@@ -16,7 +16,7 @@ from umbilical.reproduce.regions import diverged, reversal, same_on_grids
 from umbilical.reproduce.slices import PRESET_RATES, SLICES
 from umbilical.scenario import Scenario
 
-DEFAULT = {"output.interval": 50.0}
+DEFAULT: dict[str, Any] = {}
 
 
 def test_maps_are_fifteen_by_fifteen_and_show_the_preset() -> None:

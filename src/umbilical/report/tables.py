@@ -12,6 +12,8 @@ from umbilical.run import Run
 from umbilical.scenario import Scenario
 from umbilical.scenario.inventory import inventory
 
+LONG = 60
+"""Characters of a cell from which on it must not become narrow."""
 PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 
 
@@ -27,19 +29,17 @@ def table(
         numbers: columns whose cells are numbers.
     """
     top = element("thead", element("tr", *(element("th", cell, scope="col") for cell in head)))
-    lines = [
-        element(
-            "tr",
-            *(
-                element("td", cell, class_="number") if k in numbers else element("td", cell)
-                for k, cell in enumerate(row)
-            ),
-        )
-        for row in rows
-    ]
+    lines = [element("tr", *(_cell(cell, k in numbers) for k, cell in enumerate(row))) for row in rows]
     title = [element("caption", caption)] if caption else []
     inner = element("table", *title, top, element("tbody", *lines))
     return element("div", inner, class_="scroll", tabindex="0", role="region", aria_label=caption or head[0])
+
+
+def _cell(content: str, number: bool) -> Html:
+    """One cell; one with much to say claims some width, and its table scrolls where the page has less."""
+    if number:
+        return element("td", content, class_="number")
+    return element("td", content, class_="long") if len(content) > LONG else element("td", content)
 
 
 def given_table(scenario: Scenario, caption: str, keys: Sequence[str] = ()) -> Html:
@@ -55,7 +55,11 @@ def given_table(scenario: Scenario, caption: str, keys: Sequence[str] = ()) -> H
 def assumed_table(scenario: Scenario, caption: str) -> Html:
     """Values that no source gives, each with the reason; what is assumed to be absent, too."""
     entries = [entry for entry in inventory(scenario) if entry.assumed]
-    rows = [(code(e.key), code(e.value), e.unit, e.meaning, prose(e.reason)) for e in entries]
+    told = {entry.key for entry, before in zip(entries[1:], entries[:-1], strict=True) if entry.reason == before.reason}
+    rows = [
+        (code(e.key), code(e.value), e.unit, e.meaning, "as above" if e.key in told else prose(e.reason))
+        for e in entries
+    ]
     rows += [
         (code(key), "none", "", "", prose(reason))
         for key, reason in scenario.assumed.items()

@@ -10,12 +10,12 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from umbilical.admission import load
-from umbilical.engine.simulate import simulate
+from umbilical.engine.simulate import measure
 from umbilical.reproduce.experiments import BELIEVED, OBSERVER, START, preset
 from umbilical.reproduce.work import Progress, in_parallel
 from umbilical.run import Status
 
-GRID: dict[str, Any] = {"grid.elements": 8, "output.interval": 50.0}
+GRID: dict[str, Any] = {"grid.elements": 8}
 FACTORS = (1.2, 0.8)
 """True thrust factors of the presets, N s2/rad2."""
 Changes = Mapping[str, Any]
@@ -59,9 +59,8 @@ def run_points(points: Iterable[Point], progress: Progress | None = None, grid: 
     bases = {name: load(name, grid) for name in sorted({point.preset for point in distinct})}
 
     def outcome(point: Point) -> Outcome:
-        run = simulate(bases[point.preset].replace(dict(point.changes)))
-        metrics = run.metrics
-        peak = metrics.get("tip_peak_after_fault", metrics["tip_peak"])
-        return Outcome(peak if run.status is Status.COMPLETED else float("nan"), run.end_time)
+        found = measure(bases[point.preset].replace(dict(point.changes)))
+        peak = found.metrics.get("tip_peak_after_fault", found.metrics["tip_peak"])
+        return Outcome(peak if found.status is Status.COMPLETED else float("nan"), found.end_time)
 
     return dict(zip(distinct, in_parallel(outcome, distinct, progress), strict=True))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
+
+from umbilical.studies.engines import default_jobs
 
 Task = TypeVar("Task")
 Result = TypeVar("Result")
@@ -28,7 +29,7 @@ def in_parallel(
     [1, 2, 3]
     """
     found = []
-    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+    with ThreadPoolExecutor(default_jobs()) as pool:
         futures = [pool.submit(function, task) for task in tasks]
         try:
             for future in futures:
