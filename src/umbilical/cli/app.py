@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, doctoring, drawing, listing, reading, running
+from umbilical.cli import benching, doctoring, drawing, judging, listing, reading, running
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -36,6 +36,7 @@ for command in (
     reading.compare,
     reading.export,
     drawing.plot,
+    judging.margins,
     listing.presets,
     listing.schema,
     doctoring.doctor,

@@ -12,6 +12,7 @@ opens a window, changes a global setting, or keeps a figure alive.
 from umbilical.plots.cable import plot_cable, plot_positions
 from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
+from umbilical.plots.margins import plot_margins
 from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
@@ -35,6 +36,7 @@ __all__ = [
     "plot_all_observers",
     "plot_cable",
     "plot_energy",
+    "plot_margins",
     "plot_motors",
     "plot_observers",
     "plot_overview",
