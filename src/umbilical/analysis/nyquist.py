@@ -31,8 +31,6 @@ MOST = 1_000_000
 """Frequencies at most; where the echo turns faster the highest modes are left out."""
 LOWEST = 1e-3
 """First frequency, in shares of pi over the round trip: below it nothing but the integrator of D^ acts."""
-ON_THE_CIRCLE = 1e-9
-"""Poles of the controller this close to the unit circle are on it: the integrator that D^ becomes in closed form."""
 ARC = 64
 """Points of the quarter circle around z = 1, where the controller may have a pole."""
 
@@ -102,12 +100,6 @@ class Sweep:
         part = slice(*np.searchsorted(self.w, ends))
         w, opened = self.w[part], Opened(*(x[part] for x in self.dense))
         return w, self.echo[part] * opened.reflection(factor(1j * w))
-
-    @cached_property
-    def own_poles(self) -> int:
-        """Unstable poles of the controller and of the motor loops by themselves."""
-        parts = [self.loop.law, *(drive.closed(self.loop.period) for drive in self.loop.drives)]
-        return sum(int((np.abs(k.poles()) > 1.0 + ON_THE_CIRCLE).sum()) for k in parts)
 
     def transfer(self) -> np.ndarray:
         """L at the dense frequencies."""
@@ -179,7 +171,7 @@ def stability(s: Sweep, factor: Factor = unchanged) -> Stability:
     The contour runs from z = 1 (around it, outside) along the unit circle to z = -1; the other half mirrors
     it. N = P - (change of the argument of 1 - f L)/pi, P the unstable poles of controller and motor loops.
     """
-    own = s.own_poles
+    own = s.loop.own_poles
     endless = _turned(s.around.endless(factor(s.arc))) + _turned(s.opened.endless(factor(1j * s.coarse)))
     echoes, worst = _growing_echoes(s, factor)
     ends = _echo_angle(s, factor)

@@ -13,13 +13,14 @@ which are linear in the echo: no resonance has to be resolved, however light its
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.analysis.controller import READINGS, motor_law, outer_law, shares
 from umbilical.analysis.discrete import Discrete, delayed, held
-from umbilical.analysis.impedance import HangingCable, payload_stiffness, upward_asymptote, waves
+from umbilical.analysis.impedance import HangingCable, Waves, payload_stiffness, upward_asymptote, waves
 from umbilical.control.cascade import NONE, CascadeSettings, make_settings, make_state
 from umbilical.relations.formulas import MotorConstants, soft_signed_root
 from umbilical.scenario.hardware import Motor
@@ -27,6 +28,8 @@ from umbilical.scenario.scenario import Scenario
 
 ALIASES = 12
 """Aliases on either side; the rest of the sum is its asymptote."""
+
+ON_THE_CIRCLE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -88,6 +91,15 @@ class SampledLoop:
     def outer_period(self) -> float:
         """Period of the outer law, s."""
         return self.period * self.every
+
+    @cached_property
+    def own_poles(self) -> int:
+        """Unstable poles of the controller and of the motor loops by themselves.
+
+        Those as close to the unit circle as :data:`ON_THE_CIRCLE` are on it: D^ becomes an integrator.
+        """
+        parts = [self.law, *(drive.closed(self.period) for drive in self.drives)]
+        return sum(int((np.abs(part.poles()) > 1.0 + ON_THE_CIRCLE).sum()) for part in parts)
 
 
 def sampled_loop(scenario: Scenario, operating_thrust: float) -> SampledLoop:
@@ -174,38 +186,47 @@ class LoopResponse(NamedTuple):
         return -(self.down1 - gain * self.down2) / (self.up1 - gain * self.up2)
 
 
-def loop_response(cable: HangingCable, loop: SampledLoop, p: np.ndarray) -> LoopResponse:
-    """The opened loop at complex frequencies p, 1/s, of positive imaginary part up to pi/H."""
+def loop_response(
+    cable: HangingCable, loop: SampledLoop, p: np.ndarray, met: Waves | None = None, aliases: int = ALIASES
+) -> LoopResponse:
+    """The opened loop at complex frequencies p.
+
+    Args:
+        cable, loop: what is in it.
+        p: 1/s, of positive imaginary part up to pi/H.
+        met: the waves at p, where they are known already.
+        aliases: how many to add on either side.
+    """
     p = np.asarray(p, dtype=complex)
     z = np.exp(p * loop.outer_period)
     gains = loop.law.response(z)[:, 0, :]
-    w = waves(cable, p)
+    w = met or waves(cable, p)
     stiffness = payload_stiffness(cable, p)
     force = delivered(loop, p, demands_to_volts(loop, p))
     up1, down1 = stiffness - w.up, stiffness - w.down
     seen_up = _readings(np.ones_like(p), -w.up / cable.tip_tension, p, loop.ages)
     seen_down = _readings(np.ones_like(p), -w.down / cable.tip_tension, p, loop.ages)
-    others = (gains * alias_sum(cable, loop, p)).sum(axis=1)
+    others = (gains * alias_sum(cable, loop, p, aliases)).sum(axis=1)
     up2 = others * up1 + force * (gains * seen_up).sum(axis=1)
     down2 = others * down1 + force * (gains * seen_down).sum(axis=1)
     return LoopResponse(p, w.echo, up1, down1, up2, down2, force)
 
 
-def alias_sum(cable: HangingCable, loop: SampledLoop, p: np.ndarray) -> np.ndarray:
+def alias_sum(cable: HangingCable, loop: SampledLoop, p: np.ndarray, aliases: int = ALIASES) -> np.ndarray:
     """Readings per commanded thrust that the aliases other than p add, shape (len(p), 4): cable without an end."""
     from scipy.special import polygamma
 
     turn = 2j * np.pi / loop.outer_period
     commands = [demands_to_volts(loop, p + r * turn) for r in range(loop.every)]  # these repeat
     total = np.zeros((p.size, READINGS), dtype=complex)
-    for k in [k for number in range(1, ALIASES + 1) for k in (number, -number)]:
+    for k in [k for number in range(1, aliases + 1) for k in (number, -number)]:
         q = p + k * turn
         up = upward_asymptote(cable, q) if k > 0 else np.conj(upward_asymptote(cable, np.conj(q)))
         wave = delivered(loop, q, commands[k % loop.every]) / (payload_stiffness(cable, q) - up)
         total += _readings(wave, -up * wave / cable.tip_tension, q, loop.ages)
     if not loop.drives:
-        # What is left falls as 1/q^2 for slope and velocity: the sum of 1/k^2 beyond ALIASES, twice.
-        rest = (1.0 - np.exp(-p * loop.outer_period)) / loop.outer_period * 2.0 * polygamma(1, ALIASES + 1) / turn**2
+        # What is left falls as 1/q^2 for slope and velocity: the sum of 1/k^2 beyond them, twice.
+        rest = (1.0 - np.exp(-p * loop.outer_period)) / loop.outer_period * 2.0 * polygamma(1, aliases + 1) / turn**2
         per_force = np.array([0.0, cable.tip_impedance / cable.tip_tension, 1.0, 0.0]) / cable.payload_mass
         total += rest[:, None] * per_force * np.exp(-p[:, None] * np.array(loop.ages))
     return total
