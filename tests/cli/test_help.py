@@ -13,7 +13,7 @@ from umbilical.errors import UmbilicalError
 from umbilical.run import Status
 
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
-COMMANDS = ("run", "show", "compare", "export", "plot", "margins", "presets", "schema", "doctor", "bench")
+COMMANDS = ("run", "show", "compare", "export", "plot", "margins", "design", "presets", "schema", "doctor", "bench")
 
 
 @pytest.mark.parametrize(

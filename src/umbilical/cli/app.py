@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import benching, doctoring, drawing, judging, listing, reading, running
+from umbilical.cli import benching, designing, doctoring, drawing, judging, listing, reading, running
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import UmbilicalError
 
@@ -37,6 +37,7 @@ for command in (
     reading.export,
     drawing.plot,
     judging.margins,
+    designing.design,
     listing.presets,
     listing.schema,
     doctoring.doctor,

@@ -30,6 +30,9 @@ def margins(
     operating_thrust: Annotated[
         float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
     ] = None,
+    grid: Annotated[
+        str, Option("--grid", metavar="N1,N2,N3", help="Elements of the grids that are asked, too; 0 for none.")
+    ] = "32,64,128",
     plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
     force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
@@ -41,6 +44,7 @@ def margins(
       umbilical margins paper
       umbilical margins ringdown --set control.law.slope_gain=5
       umbilical margins paper --lengths 100,300,500 --plot margins.png
+      umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
 
     Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 0 says that they were
     computed, not that the loop is stable: read `stable` in --json.
@@ -50,8 +54,9 @@ def margins(
         check_target(plot, PICTURES, force=force)
     from umbilical.design.margins import margins as compute
 
+    elements = [round(number) for number in _numbers(grid) or [] if number]
     with bar("margins") as advance:
-        report = compute(chosen, _numbers(lengths), operating_thrust, progress=advance)
+        report = compute(chosen, _numbers(lengths), operating_thrust, elements=elements, progress=advance)
     files = _draw(report, plot, force)
     if as_json:
         say_json(document(report) | {"files": files})
@@ -89,6 +94,16 @@ def document(report: MarginReport) -> dict[str, Any]:
         "scenario_hash": report.scenario.hash,
         "operating_thrust": report.operating_thrust,
         "stable": report.stable,
+        "resolved": report.resolved,
+        "grids": [
+            {
+                "elements": g.elements,
+                "unstable_poles": g.stability.unstable,
+                "difference": g.difference,
+                "heard_up_to": g.heard,
+            }
+            for g in report.grids
+        ],
         "lengths": [_one_length(judgement) for judgement in report.judgements],
     }
 
@@ -115,11 +130,30 @@ def _one_length(j: Judgement) -> dict[str, Any]:
 def text(report: MarginReport) -> str:
     """A report as people read it."""
     head = f"{report.scenario.name}: {'stable' if report.stable else 'NOT STABLE'} in linearised sampled operation"
-    rows = [("length", "effectiveness", "phase", "delay", "unstable poles", "first mode", "damping")]
-    rows += [_row(j) for j in report.judgements]
-    lines = [head, f"  motors linearised at a thrust of {report.operating_thrust:.4g} N", table(rows, right=range(7))]
+    thrust = f"  motors linearised at a thrust of {report.operating_thrust:.4g} N"
+    lines = [head, thrust, table(rows(report), right=range(7))]
     lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
-    return "\n".join(lines)
+    return "\n".join(lines + _grids(report))
+
+
+def _grids(report: MarginReport) -> list[str]:
+    """What the engine's own grids say at the longest length, and the verdict."""
+    lines = []
+    for g in report.grids:
+        apart = f"margins within {100.0 * g.difference:.2g} %" if math.isfinite(g.difference) else "stability differs"
+        lines.append(
+            f"  {g.elements} elements: {apart}; unstable poles {g.stability.unstable}; up to {g.heard:.3g} rad/s"
+        )
+    if report.resolved is not None:
+        verdict = "resolved" if report.resolved else "NOT RESOLVED: the grids and the exact cable disagree; it decides"
+        lines.append(f"  verdict on the grids at the longest length: {verdict}")
+    return lines
+
+
+def rows(report: MarginReport) -> list[tuple[str, ...]]:
+    """A row of cells for each length, below their names."""
+    names = ("length", "effectiveness", "phase", "delay", "unstable poles", "first mode", "damping")
+    return [names, *(_row(j) for j in report.judgements)]
 
 
 def _row(j: Judgement) -> tuple[str, ...]:

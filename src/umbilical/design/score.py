@@ -29,7 +29,7 @@ FEW_ALIASES = 2
 """Enough to rank gains; what is chosen is judged with all of them."""
 FIRST_MODES = (0.3, 2.2)
 """Band of the first modes in shares of 2 pi over the round trip: from the free ROV's first to about its fourth."""
-SPARE = 0.999
+SPARE = 0.9997
 """What is asked of the largest round trip, a little below 1."""
 
 
@@ -48,18 +48,21 @@ class Score(NamedTuple):
     Attributes:
         reflection: largest |R| in the band of the first modes.
         compliance: largest displacement of the ROV per force on it in that band, m/N, echoes left out.
-        trip: largest size of a round trip under the demanded margins; the loop has them below 1.
-        change: which of them it is.
-        frequency: where, rad/s.
+        trips: largest size of a round trip under each change that the loop shall survive: below 1, it does.
+        binding: which change comes closest, and at which frequency, rad/s.
         unstable: poles outside the unit circle on a cable without an end, under the demanded margins.
     """
 
     reflection: float
     compliance: float
-    trip: float
-    change: str
-    frequency: float
+    trips: np.ndarray
+    binding: tuple[str, float]
     unstable: int
+
+    @property
+    def trip(self) -> float:
+        """The largest of the round trips."""
+        return float(self.trips.max())
 
     @property
     def sound(self) -> bool:
@@ -85,7 +88,7 @@ class Judge:
 
     def __init__(self, scenario: Scenario, shortest: float, demands: Demands) -> None:
         self.cable: HangingCable = hanging_cable(scenario, shortest)
-        self.demands = demands
+        self.changes = changes(demands, scenario.control.period)
         trip = self.cable.round_trip
         outer = scenario.control.outer_period or scenario.control.period
         self.w = np.geomspace(0.02 * np.pi / trip, 0.999 * np.pi / outer, POINTS)
@@ -99,17 +102,17 @@ class Judge:
         """All of a loop's numbers."""
         r = loop_response(self.cable, loop, self.p, self.met, FEW_ALIASES)
         a2, b, b2 = r.up2 / r.up1, r.down1 / r.up1, r.down2 / r.up1
-        worst, unstable = (0.0, "", 0.0), 0
-        for name, factor in changes(self.demands, loop.period).items():
+        sizes, endless = [], []
+        for factor in self.changes.values():
             f = factor(self.p)
-            endless = 1.0 - f * a2
-            size = self.loudness * np.abs((b - f * b2) / endless)[ARC:]
-            place = int(np.argmax(size))
-            worst = max(worst, (float(size[place]), name, float(self.w[place])))
-            unstable = max(unstable, _unstable(loop, endless))
+            endless.append(1.0 - f * a2)
+            sizes.append(self.loudness * np.abs((b - f * b2) / endless[-1])[ARC:])
+        place = np.unravel_index(np.argmax(sizes), np.shape(sizes))
+        binding = (list(self.changes)[place[0]], float(self.w[place[1]]))
+        unstable = max(_unstable(loop, curve) for curve in endless)
         calm = np.abs(1.0 / (r.up1 - r.up2))[ARC:][self.band]
         reflection = np.abs(r.reflection())[ARC:][self.band]
-        return Score(float(reflection.max()), float(calm.max()), *worst, unstable)
+        return Score(float(reflection.max()), float(calm.max()), np.max(sizes, axis=1), binding, unstable)
 
     def motor_lag(self, loop: SampledLoop, frequency: float) -> tuple[float, float]:
         """Lag of the motors and of everything else in the loop's own electronics at a frequency, rad."""
@@ -124,5 +127,3 @@ def _unstable(loop: SampledLoop, endless: np.ndarray) -> int:
     """Nyquist's count on a cable without an end; as in :func:`umbilical.analysis.nyquist.stability`."""
     angle = np.unwrap(np.angle(endless))
     return round(loop.own_poles - (angle[-1] - angle[0]) / np.pi)
-
-

@@ -10,6 +10,7 @@ opens a window, changes a global setting, or keeps a figure alive.
 """
 
 from umbilical.plots.cable import plot_cable, plot_positions
+from umbilical.plots.design import plot_design
 from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
 from umbilical.plots.margins import plot_margins
@@ -35,6 +36,7 @@ __all__ = [
     "plot_all_motors",
     "plot_all_observers",
     "plot_cable",
+    "plot_design",
     "plot_energy",
     "plot_margins",
     "plot_motors",
