@@ -12,8 +12,10 @@ opens a window, changes a global setting, or keeps a figure alive.
 from umbilical.plots.cable import plot_cable, plot_positions
 from umbilical.plots.certificate import plot_certificate
 from umbilical.plots.convergence import plot_convergence
+from umbilical.plots.design import plot_design
 from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
+from umbilical.plots.margins import plot_margins
 from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
@@ -48,9 +50,11 @@ __all__ = [
     "plot_certificate",
     "plot_comparison",
     "plot_convergence",
+    "plot_design",
     "plot_distribution",
     "plot_energy",
     "plot_map",
+    "plot_margins",
     "plot_motors",
     "plot_observers",
     "plot_overview",

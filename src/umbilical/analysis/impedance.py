@@ -1,0 +1,144 @@
+"""The hanging cable of frozen length between vessel and ROV, exactly and without a grid.
+
+With s = l - x the distance from the ROV and mu = m + rho_h s the mass below a point (rho_h hangs, rho moves),
+the cable's equation at a complex frequency p is Bessel's::
+
+    (T Y_s)_s = (rho p^2 + c p) Y,   T = g mu
+    Y = A H1(X)/H1(X_l) + B H2(X)/H2(X_l),   X = -2j sqrt((rho p^2 + c p) mu/g)/rho_h
+
+with the Hankel functions of order 0: H1 comes down to the ROV, H2 goes up from it. The vessel end y = 0 sends
+back what arrives there, A = echo * B, so that at the ROV::
+
+    Y = (1 + echo) B,   T Y_x = -(down * echo + up) B,   down, up = T d/ds ln H(X) at the ROV
+
+High above the first modes ``up`` tends to ``-p sqrt(rho T)``, the impedance of a cable without an end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.scenario.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class HangingCable:
+    """Cable and ROV at a length that does not change.
+
+    Attributes:
+        line_density, hanging_density: mass that moves, and mass that loads the tension, kg/m.
+        damping: N s/m2.
+        payload_mass, payload_damping: the ROV, kg and N s/m.
+        gravity: m/s2.
+        length: m.
+    """
+
+    line_density: float
+    hanging_density: float
+    damping: float
+    payload_mass: float
+    payload_damping: float
+    gravity: float
+    length: float
+
+    @property
+    def tip_tension(self) -> float:
+        """Tension at the ROV, N."""
+        return self.payload_mass * self.gravity
+
+    @property
+    def tip_wave_speed(self) -> float:
+        """c_l = sqrt(T_l/rho), m/s."""
+        return float(np.sqrt(self.tip_tension / self.line_density))
+
+    @property
+    def tip_impedance(self) -> float:
+        """sqrt(rho T) at the ROV, N s/m."""
+        return float(np.sqrt(self.tip_tension * self.line_density))
+
+    @property
+    def round_trip(self) -> float:
+        """Time a wave takes from the ROV to the vessel and back, s: twice ``int dx/sqrt(T/rho)``."""
+        top = self.payload_mass + self.hanging_density * self.length
+        roots = np.sqrt(top) + np.sqrt(self.payload_mass)
+        return float(4.0 * np.sqrt(self.line_density / self.gravity) * self.length / roots)
+
+
+class Waves(NamedTuple):
+    """What the ROV meets at complex frequencies p, 1/s; arrays of one shape.
+
+    Attributes:
+        echo: displacement that comes back from the vessel over what went up, both at the ROV.
+        down, up: T d/ds of the wave that comes down and of the one that goes up, N/m.
+    """
+
+    echo: np.ndarray
+    down: np.ndarray
+    up: np.ndarray
+
+
+def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
+    """Cable and ROV of a scenario at a length, m, the winch standing still."""
+    cable, payload = scenario.cable, scenario.payload
+    return HangingCable(
+        line_density=cable.line_density,
+        hanging_density=cable.hanging_density,
+        damping=cable.damping,
+        payload_mass=payload.mass,
+        payload_damping=payload.damping,
+        gravity=scenario.environment.gravity,
+        length=length,
+    )
+
+
+def waves(cable: HangingCable, p: np.ndarray) -> Waves:
+    """Echo and impedances at complex frequencies p with a positive imaginary part, 1/s.
+
+    >>> cable = HangingCable(2.0, 0.0, 0.0, 500.0, 0.0, 10.0, 400.0)  # constant tension: a pure delay
+    >>> bool(np.isclose(waves(cable, np.array([1j])).echo[0], -np.exp(-1j * 2 * 400 / 50)))
+    True
+    """
+    p = np.asarray(p, dtype=complex)
+    gamma = wave_number(cable, p)
+    if cable.hanging_density == 0.0:
+        slope = cable.tip_tension * gamma
+        return Waves(-np.exp(-2.0 * gamma * cable.length), slope, -slope)
+    from scipy.special import hankel1e, hankel2e
+
+    # X at the ROV and X at the vessel less X at the ROV, which must not be a difference of large numbers.
+    scale = 2.0 * cable.payload_mass / cable.hanging_density
+    ratio = cable.hanging_density * cable.length / cable.payload_mass
+    stretch = ratio / (np.sqrt(1.0 + ratio) + 1.0)
+    tip = -1j * gamma * scale
+    path = tip * stretch
+    down, up = hankel1e(0, tip), hankel2e(0, tip)
+    echo = -hankel2e(0, tip + path) / up * down / hankel1e(0, tip + path) * np.exp(-2j * path)
+    slope = 1j * cable.tip_tension * gamma
+    return Waves(echo, slope * hankel1e(1, tip) / down, slope * hankel2e(1, tip) / up)
+
+
+def wave_number(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+    """gamma = sqrt((rho p^2 + c p)/T) at the ROV, 1/m, of positive real part: a wave goes as exp(-gamma s)."""
+    return p * np.sqrt((cable.line_density + cable.damping / p) / cable.tip_tension)
+
+
+def upward_asymptote(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+    """``up`` of :func:`waves` far above the first mode, N/m: ``-T (gamma + rho_h/(4 m))``, next term of order 1/p."""
+    taper = cable.hanging_density / (4.0 * cable.payload_mass)
+    return -cable.tip_tension * (wave_number(cable, p) + taper)
+
+
+def payload_stiffness(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+    """m p^2 + c_tip p, N/m: force over displacement of the ROV alone."""
+    return p * (cable.payload_mass * p + cable.payload_damping)
+
+
+def tip_response(cable: HangingCable, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement and slope at the ROV per force on it, m/N and 1/N, at complex frequencies p."""
+    echo, down, up = waves(cable, p)
+    stiffness = payload_stiffness(cable, p)
+    wave = 1.0 / (stiffness - up + echo * (stiffness - down))
+    return (1.0 + echo) * wave, -(up + echo * down) * wave / cable.tip_tension

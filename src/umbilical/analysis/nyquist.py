@@ -1,0 +1,240 @@
+"""Stability of the sampled loop by Nyquist's count, without a grid along the cable.
+
+With the coefficients of :class:`~umbilical.analysis.sampled.LoopResponse` divided by ``up1``, and a factor f on
+the thrust::
+
+    1 - f L = (1 - f a2) (1 - trip) / (1 + echo b),   trip = echo R,   R = -(b - f b2)/(1 - f a2)
+
+``1 - f a2`` is the loop on a cable without an end, ``trip`` what a wave is multiplied by in one round trip:
+sent up, returned by the vessel, reflected by the controlled ROV. Both change smoothly with frequency, so a
+sweep that resolves the phase of the echo misses no mode, however light its damping. ``1 + echo b`` is the
+cable with a free ROV, which reflects no more than it receives and so turns no round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.analysis.impedance import HangingCable, waves
+from umbilical.analysis.sampled import SampledLoop, loop_response
+
+PER_DECADE = 300
+"""Frequencies at which the smooth coefficients are computed; between them they are splines."""
+PER_TURN = 32
+"""Frequencies in one turn of the echo's phase."""
+MOST = 1_000_000
+"""Frequencies at most; where the echo turns faster the highest modes are left out."""
+LOWEST = 1e-3
+"""First frequency, in shares of pi over the round trip: below it nothing but the integrator of D^ acts."""
+ARC = 64
+"""Points of the quarter circle around z = 1, where the controller may have a pole."""
+
+Factor = Callable[[np.ndarray], np.ndarray]
+"""What multiplies the thrust, at complex frequencies p."""
+
+
+class Opened(NamedTuple):
+    """The opened loop at frequencies, every coefficient divided by ``up1``."""
+
+    b: np.ndarray
+    a2: np.ndarray
+    b2: np.ndarray
+
+    def endless(self, factor: np.ndarray) -> np.ndarray:
+        """1 - f a2."""
+        return 1.0 - factor * self.a2
+
+    def reflection(self, factor: np.ndarray) -> np.ndarray:
+        """R."""
+        return -(self.b - factor * self.b2) / self.endless(factor)
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """The opened loop over frequency.
+
+    Attributes:
+        cable, loop: what was swept.
+        coarse: frequencies at which the smooth coefficients were computed, rad/s.
+        opened: the loop there.
+        w: frequencies dense enough for the echo, rad/s.
+        echo: of the vessel there.
+        arc, around: complex frequencies around z = 1, 1/s, with the loop and its echo there.
+    """
+
+    cable: HangingCable
+    loop: SampledLoop
+    coarse: np.ndarray
+    opened: Opened
+    w: np.ndarray
+    echo: np.ndarray
+    arc: np.ndarray
+    around: Opened
+    arc_echo: np.ndarray
+
+    @cached_property
+    def dense(self) -> Opened:
+        """The loop at the dense frequencies."""
+        from scipy.interpolate import CubicSpline
+
+        return Opened(*CubicSpline(np.log(self.coarse), np.stack(self.opened, axis=1))(np.log(self.w)).T)
+
+    @cached_property
+    def loudest(self) -> np.ndarray:
+        """Largest size of the echo near each coarse frequency; it changes slowly."""
+        return np.interp(self.coarse, self.w, np.abs(self.echo))
+
+    def trip(self, factor: Factor) -> np.ndarray:
+        """echo R at the dense frequencies."""
+        return self.echo * self.dense.reflection(factor(1j * self.w))
+
+    def trip_where(self, coarse: np.ndarray, factor: Factor) -> tuple[np.ndarray, np.ndarray]:
+        """Dense frequencies from the first to the last of some coarse ones, and the round trip there."""
+        first, last = np.flatnonzero(coarse)[[0, -1]]
+        ends = self.coarse[[max(first - 1, 0), min(last + 1, coarse.size - 1)]]
+        part = slice(*np.searchsorted(self.w, ends))
+        w, opened = self.w[part], Opened(*(x[part] for x in self.dense))
+        return w, self.echo[part] * opened.reflection(factor(1j * w))
+
+    def transfer(self) -> np.ndarray:
+        """L at the dense frequencies."""
+        return (self.dense.a2 + self.echo * self.dense.b2) / (1.0 + self.echo * self.dense.b)
+
+
+@dataclass(frozen=True)
+class Growth:
+    """A motion that grows: frequency, rad/s, and rate, 1/s; NaN where it is not an echo."""
+
+    frequency: float
+    rate: float
+
+
+@dataclass(frozen=True)
+class Stability:
+    """Poles of the closed sampled loop outside the unit circle.
+
+    Attributes:
+        unstable: how many, by Nyquist's count.
+        endless: how many the loop has on a cable without an end: observers, sampling and motors alone.
+        worst: the echo that grows fastest, if one grows.
+    """
+
+    unstable: int
+    endless: int
+    worst: Growth | None
+
+
+def unchanged(p: np.ndarray) -> np.ndarray:
+    """The factor 1."""
+    return np.ones_like(p)
+
+
+def sweep(cable: HangingCable, loop: SampledLoop) -> Sweep:
+    """The opened loop from far below the first mode to half the sampling frequency."""
+    first, last = LOWEST * np.pi / cable.round_trip, np.pi / loop.outer_period
+    coarse = np.geomspace(first, last, int(PER_DECADE * np.log10(last / first)))
+    w = _dense(coarse, 2.0 * np.pi / (PER_TURN * cable.round_trip))
+    arc = first * np.exp(0.5j * np.pi * np.linspace(0.0, 1.0, ARC))
+    return Sweep(
+        cable=cable,
+        loop=loop,
+        coarse=coarse,
+        opened=_opened(cable, loop, 1j * coarse),
+        w=w,
+        echo=waves(cable, 1j * w).echo,
+        arc=arc,
+        around=_opened(cable, loop, arc),
+        arc_echo=waves(cable, arc).echo,
+    )
+
+
+def _opened(cable: HangingCable, loop: SampledLoop, p: np.ndarray) -> Opened:
+    r = loop_response(cable, loop, p)
+    return Opened(r.down1 / r.up1, r.up2 / r.up1, r.down2 / r.up1)
+
+
+def _dense(coarse: np.ndarray, step: float) -> np.ndarray:
+    """The coarse frequencies, filled up where they are further apart than ``step``."""
+    start = coarse[np.argmax(np.diff(coarse) > step)]
+    even = np.arange(start, min(coarse[-1], start + MOST * step), step)
+    return np.concatenate([coarse[coarse < start], even, coarse[coarse > even[-1]]])
+
+
+def stability(s: Sweep, factor: Factor = unchanged) -> Stability:
+    """Count the unstable poles of the closed loop, the thrust multiplied by a factor.
+
+    The contour runs from z = 1 (around it, outside) along the unit circle to z = -1; the other half mirrors
+    it. N = P - (change of the argument of 1 - f L)/pi, P the unstable poles of controller and motor loops.
+    """
+    own = s.loop.own_poles
+    endless = _turned(s.around.endless(factor(s.arc))) + _turned(s.opened.endless(factor(1j * s.coarse)))
+    echoes, worst = _growing_echoes(s, factor)
+    ends = _echo_angle(s, factor)
+    unstable = round(own - (endless + ends) / np.pi) + 2 * echoes
+    return Stability(unstable, round(own - endless / np.pi), worst)
+
+
+def _turned(curve: np.ndarray) -> float:
+    """How far a smooth curve turns around 0, rad."""
+    angle = np.unwrap(np.angle(curve))
+    return float(angle[-1] - angle[0])
+
+
+def _echo_angle(s: Sweep, factor: Factor) -> float:
+    """Principal angle of (1 - trip)/(1 + echo b) at the end less that on the positive real axis, rad."""
+    start = 1.0 - s.arc_echo * s.around.reflection(factor(s.arc))
+    free = 1.0 + s.arc_echo * s.around.b
+    begun = _turned(start / free)
+    rim = Opened(*(x[[0, -1]] for x in s.dense))
+    trip = s.echo[[0, -1]] * rim.reflection(factor(1j * s.w[[0, -1]]))
+    last = (1.0 - trip) / (1.0 + s.echo[[0, -1]] * rim.b)
+    return begun + float(np.angle(last[1]) - np.angle(last[0]))
+
+
+def _growing_echoes(s: Sweep, factor: Factor) -> tuple[int, Growth | None]:
+    """Round trips that return a wave in phase and larger: how many, less those passed the other way; the fastest."""
+    loud = s.loudest * np.abs(s.opened.reflection(factor(1j * s.coarse))) >= 1.0
+    if not loud.any():
+        return 0, None
+    w, trip = s.trip_where(loud, factor)
+    places, upward = crossings(np.imag(trip))
+    # The modulus between two samples is a straight line; the chord of the circle would cut it short.
+    left, right = np.abs(np.imag(trip)[places]), np.abs(np.imag(trip)[places + 1])
+    size = (right * np.abs(trip[places]) + left * np.abs(trip[places + 1])) / (left + right)
+    growing = (size > 1.0) & (np.real(trip)[places] > 0.0)
+    count = int(np.where(upward, -1, 1)[growing].sum())
+    return count, _fastest(w, trip, places[growing], size[growing])
+
+
+def crossings(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places after which a real curve changes its sign, and whether upward."""
+    positive = values > 0.0
+    places = np.flatnonzero(positive[1:] != positive[:-1])
+    return places, positive[places + 1]
+
+
+def _fastest(w: np.ndarray, trip: np.ndarray, places: np.ndarray, size: np.ndarray) -> Growth | None:
+    if not places.size:
+        return None
+    rates = np.log(size) / _delay(w, trip, places)
+    worst = int(np.argmax(rates))
+    return Growth(float(w[places[worst]]), float(rates[worst]))
+
+
+def _delay(w: np.ndarray, trip: np.ndarray, places: np.ndarray) -> np.ndarray:
+    """Time a round trip takes, -d(angle)/dw, s."""
+    return -np.angle(trip[places + 1] / trip[places]) / (w[places + 1] - w[places])
+
+
+def near_poles(s: Sweep, count: int) -> list[complex]:
+    """First guesses of the closed loop's lowest modes, 1/s: where a round trip turns a wave by whole turns."""
+    trip = s.trip(unchanged)
+    places, _ = crossings(np.imag(trip))
+    places = places[np.real(trip)[places] > 0.0][:count]
+    rates = np.log(np.abs(trip[places])) / _delay(s.w, trip, places)
+    return [complex(rate, w) for rate, w in zip(rates, s.w[places], strict=True)]

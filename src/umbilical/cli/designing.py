@@ -1,0 +1,172 @@
+"""``umbilical design``."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from typer import Argument, BadParameter, Option
+
+from umbilical.cli.judging import document as margins_document
+from umbilical.cli.judging import rows as margin_rows
+from umbilical.cli.progress import announce_compilation, bar
+from umbilical.cli.running import load_changed
+from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.targets import PICTURES, check_target
+
+if TYPE_CHECKING:
+    from umbilical.design.design import Design, Limits, Side
+
+Objective = Literal["ringdown", "rejection", "both"]
+
+
+def design(
+    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
+    ] = None,
+    objective: Annotated[Objective, Option("--objective", help="What the gains shall serve.")] = "both",
+    inner: Annotated[bool, Option("--inner", help="Choose the motor loops' gains, too.")] = False,
+    gain: Annotated[float, Option("--gain-margin", metavar="DB", help="Both ways, dB.")] = 6.0,
+    phase: Annotated[float, Option("--phase-margin", metavar="DEG", help="Both ways, degrees.")] = 30.0,
+    delay: Annotated[float, Option("--delay-margin", metavar="N", help="In control periods.")] = 2.0,
+    limits: Annotated[
+        str | None, Option("--limits", metavar="NAME=VALUE,...", help="voltage (V), speed (rad/s), chatter (V).")
+    ] = None,
+    operating_thrust: Annotated[
+        float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
+    ] = None,
+    out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Store the new scenario.")] = None,
+    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Choose gains for the thrusters a scenario has, with margins, and try them in a simulation.
+
+    \b
+    examples
+      umbilical design ringdown --inner --plot design.png
+      umbilical design paper --objective rejection --limits voltage=40,chatter=0.05
+      umbilical design my.toml --inner --out tuned.toml
+
+    The exit code says that the search was done; `met` in --json and the text say whether all margins and
+    limits are kept.
+    """
+    chosen = load_changed(scenario, changes or [])
+    if out:
+        check_target(out, ("toml",), force=force)
+    if plot:
+        check_target(plot, PICTURES, force=force)
+    from umbilical.design.design import design as compute
+    from umbilical.design.score import Demands
+
+    if gain < 0.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
+        raise BadParameter("margins are 0 dB or more, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
+    demands = Demands(10.0 ** (gain / 20.0), math.radians(phase), delay)
+    announce_compilation()
+    with bar("designing") as advance:
+        found = compute(
+            chosen, objective, inner=inner, demands=demands, limits=_limits(limits),
+            operating_thrust=operating_thrust, progress=advance,
+        )  # fmt: skip
+    files = _write(found, out, plot, force)
+    if as_json:
+        say_json(document(found) | {"files": files})
+    else:
+        say("\n".join([text(found), *(f"  {role}: {path}" for role, path in files.items())]))
+    return 0
+
+
+def _limits(words: str | None) -> Limits:
+    """``voltage=40,chatter=0.05`` as limits.
+
+    Raises:
+        BadParameter: another name, or not a positive number.
+    """
+    from umbilical.design.design import Limits
+
+    given = {}
+    for word in words.split(",") if words else []:
+        name, _, value = word.partition("=")
+        try:
+            given[name] = float(value)
+        except ValueError:
+            given[name] = -1.0
+        if name not in ("voltage", "speed", "chatter") or not given[name] > 0.0:
+            raise BadParameter(
+                f"'{word}' is not voltage=, speed= or chatter= and a number above 0", param_hint="--limits"
+            )
+    return Limits(**given)
+
+
+def _write(found: Design, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
+    written = {}
+    if out:
+        from umbilical import files
+
+        text_ = found.after.scenario.to_toml()
+        written["scenario"] = str(files.write(out, text_.encode(), force=force))
+    if plot:
+        from umbilical.plots import plot_design, save_figure
+
+        written["plot"] = str(save_figure(plot_design(found), plot, force=force))
+    return written
+
+
+def document(found: Design) -> dict[str, Any]:
+    """A design as ``--json`` prints it."""
+    return {
+        "objective": found.objective,
+        "met": found.met,
+        "missing": found.missing,
+        "limited_by": found.limited_by,
+        "values": found.values,
+        "patch": found.patch(),
+        "before": _side(found.before),
+        "after": _side(found.after),
+    }
+
+
+def _side(side: Side) -> dict[str, Any]:
+    trial = side.trial
+    return {
+        "margins_met": side.meets,
+        "reflection_of_first_modes": side.score.reflection,
+        "compliance": side.score.compliance,
+        "status": trial.run.status.name,
+        "late_mid_peak": trial.late_mid_peak,
+        "tip_peak": trial.tip_peak,
+        "voltage_peak": trial.voltage_peak,
+        "speed_peak": trial.speed_peak,
+        "chatter": trial.chatter,
+        "margins": margins_document(side.report),
+    }
+
+
+def text(found: Design) -> str:
+    """A design as people read it."""
+    name = found.after.scenario.name
+    state = "all margins and limits are kept" if found.met else "NOT everything is kept"
+    lines = [f"{name}: designed for {found.objective}; {state}"]
+    lines += [f"  missing: {words}" for words in found.missing]
+    lines += [f"  limit: {found.limited_by}", table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
+    for side, words in ((found.before, "before"), (found.after, "after")):
+        lines += [f"  margins {words}", table(margin_rows(side.report), right=range(7))]
+    return "\n".join(lines)
+
+
+def _comparison(found: Design) -> list[tuple[str, str, str]]:
+    named = {
+        "reflection of the first modes": lambda s: f"{s.score.reflection:.4g}",
+        "ROV per force, first modes": lambda s: f"{s.score.compliance:.3g} m/N",
+        "demanded margins": lambda s: "kept" if s.meets else "missed",
+        "simulation": lambda s: s.trial.run.status.name.lower(),
+        "midpoint, peak in the last third": lambda s: f"{s.trial.late_mid_peak:.4g} m",
+        "ROV, peak": lambda s: f"{s.trial.tip_peak:.4g} m",
+        "voltage, peak": lambda s: f"{s.trial.voltage_peak:.4g} V",
+        "motor speed, peak": lambda s: f"{s.trial.speed_peak:.4g} rad/s",
+        "voltage above 10 Hz, RMS in the last third": lambda s: f"{s.trial.chatter:.3g} V",
+    }
+    rows = [("", "before", "after")]
+    return rows + [(words, show(found.before), show(found.after)) for words, show in named.items()]

@@ -1,0 +1,189 @@
+"""``umbilical margins``."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from typer import Argument, BadParameter, Option
+
+from umbilical.cli.progress import bar
+from umbilical.cli.running import load_changed
+from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.targets import PICTURES, check_target
+
+if TYPE_CHECKING:
+    from umbilical.analysis.limits import Limit
+    from umbilical.analysis.margins import Judgement
+    from umbilical.design.margins import MarginReport
+
+
+def margins(
+    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    changes: Annotated[
+        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
+    ] = None,
+    lengths: Annotated[
+        str | None, Option("--lengths", metavar="L1,L2,...", help="Cable lengths, m; default those of the run.")
+    ] = None,
+    operating_thrust: Annotated[
+        float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
+    ] = None,
+    grid: Annotated[
+        str, Option("--grid", metavar="N1,N2,N3", help="Elements of the grids that are asked, too; 0 for none.")
+    ] = "32,64,128",
+    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
+    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+) -> int:
+    """Stability and margins of the sampled loop with its motors, from the exact cable.
+
+    \b
+    examples
+      umbilical margins paper
+      umbilical margins ringdown --set control.law.slope_gain=5
+      umbilical margins paper --lengths 100,300,500 --plot margins.png
+      umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
+
+    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 0 says that they were
+    computed, not that the loop is stable: read `stable` in --json.
+    """
+    chosen = load_changed(scenario, changes or [])
+    if plot:
+        check_target(plot, PICTURES, force=force)
+    from umbilical.design.margins import margins as compute
+
+    elements = [round(number) for number in _numbers(grid) or [] if number]
+    with bar("margins") as advance:
+        report = compute(chosen, _numbers(lengths), operating_thrust, elements=elements, progress=advance)
+    files = _draw(report, plot, force)
+    if as_json:
+        say_json(document(report) | {"files": files})
+    else:
+        say("\n".join([text(report), *(f"  {role}: {path}" for role, path in files.items())]))
+    return 0
+
+
+def _numbers(words: str | None) -> list[float] | None:
+    """Comma-separated numbers.
+
+    Raises:
+        BadParameter: something between the commas is not a number.
+    """
+    if words is None:
+        return None
+    try:
+        return [float(word) for word in words.split(",")]
+    except ValueError as error:
+        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint="--lengths") from error
+
+
+def _draw(report: MarginReport, plot: Path | None, force: bool) -> dict[str, str]:
+    if not plot:
+        return {}
+    from umbilical.plots import plot_margins, save_figure
+
+    return {"plot": str(save_figure(plot_margins(report), plot, force=force))}
+
+
+def document(report: MarginReport) -> dict[str, Any]:
+    """A report as ``--json`` prints it."""
+    return {
+        "scenario": report.scenario.name,
+        "scenario_hash": report.scenario.hash,
+        "operating_thrust": report.operating_thrust,
+        "stable": report.stable,
+        "resolved": report.resolved,
+        "grids": [
+            {
+                "elements": g.elements,
+                "unstable_poles": g.stability.unstable,
+                "difference": g.difference,
+                "heard_up_to": g.heard,
+            }
+            for g in report.grids
+        ],
+        "lengths": [_one_length(judgement) for judgement in report.judgements],
+    }
+
+
+def _one_length(j: Judgement) -> dict[str, Any]:
+    worst = j.stability.worst
+    return {
+        "length": j.length,
+        "stable": j.stable,
+        "unstable_poles": j.stability.unstable,
+        "unstable_poles_without_cable_end": j.stability.endless,
+        "fastest_growth": None if worst is None else {"frequency": worst.frequency, "rate": worst.rate},
+        "margins": None
+        if j.margins is None
+        else {
+            name: {"size": getattr(j.margins, name).size, "frequency": getattr(j.margins, name).frequency}
+            for name in ("gain_low", "gain_high", "phase", "delay")
+        },
+        "modes": [mode._asdict() for mode in j.modes],
+        "reflection": {"frequency": j.frequency.tolist(), "size": j.reflection.tolist()},
+    }
+
+
+def text(report: MarginReport) -> str:
+    """A report as people read it."""
+    head = f"{report.scenario.name}: {'stable' if report.stable else 'NOT STABLE'} in linearised sampled operation"
+    thrust = f"  motors linearised at a thrust of {report.operating_thrust:.4g} N"
+    lines = [head, thrust, table(rows(report), right=range(7))]
+    lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
+    return "\n".join(lines + _grids(report))
+
+
+def _grids(report: MarginReport) -> list[str]:
+    """What the engine's own grids say at the longest length, and the verdict."""
+    lines = []
+    for g in report.grids:
+        apart = f"margins within {100.0 * g.difference:.2g} %" if math.isfinite(g.difference) else "stability differs"
+        lines.append(
+            f"  {g.elements} elements: {apart}; unstable poles {g.stability.unstable}; up to {g.heard:.3g} rad/s"
+        )
+    if report.resolved is not None:
+        verdict = "resolved" if report.resolved else "NOT RESOLVED: the grids and the exact cable disagree; it decides"
+        lines.append(f"  verdict on the grids at the longest length: {verdict}")
+    return lines
+
+
+def rows(report: MarginReport) -> list[tuple[str, ...]]:
+    """A row of cells for each length, below their names."""
+    names = ("length", "effectiveness", "phase", "delay", "unstable poles", "first mode", "damping")
+    return [names, *(_row(j) for j in report.judgements)]
+
+
+def _row(j: Judgement) -> tuple[str, ...]:
+    mode = (f"{j.modes[0].frequency:.4g} rad/s", f"{j.modes[0].damping_ratio:.3g}") if j.modes else ("-", "-")
+    if j.margins is None:
+        return (f"{j.length:g} m", "-", "-", "-", str(j.stability.unstable), *mode)
+    m = j.margins
+    low = f"{m.gain_low.size:.3g}"
+    gains = f"{low} to {_or_more(m.gain_high.size, '.3g', '100')}"
+    phase = _or_more(math.degrees(m.phase.size), ".3g", "90") + " deg"
+    return (f"{j.length:g} m", gains, phase, _or_more(1e3 * m.delay.size, ".3g", "1000") + " ms", "0", *mode)
+
+
+def _or_more(value: float, form: str, largest: str) -> str:
+    """A number, or that it is beyond what was searched."""
+    return f"{value:{form}}" if math.isfinite(value) else f"over {largest}"
+
+
+def _remarks(j: Judgement) -> list[str]:
+    """What grows, or what would first."""
+    if j.stability.endless:
+        return ["observers, sampling and motors are unstable even on a cable without an end"]
+    if worst := j.stability.worst:
+        return [f"waves of {worst.frequency:.4g} rad/s grow by {worst.rate:.2g} 1/s: the ROV feeds them"]
+    if j.margins is None:
+        return []
+    named = {"less thrust": j.margins.gain_low, "more thrust": j.margins.gain_high, "delay": j.margins.delay}
+    found = [f"{words}: {_frequency(limit)}" for words, limit in named.items() if math.isfinite(limit.frequency)]
+    return ["what would grow first with " + ", ".join(found)] if found else []
+
+
+def _frequency(limit: Limit) -> str:
+    return f"{limit.frequency:.3g} rad/s"

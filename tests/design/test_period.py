@@ -1,0 +1,133 @@
+"""The engine's own matrices and the cable without a grid are two ways to one loop."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import umbilical
+from umbilical.analysis.impedance import hanging_cable
+from umbilical.analysis.limits import margins, scaled
+from umbilical.analysis.margins import judge
+from umbilical.analysis.nyquist import stability, sweep
+from umbilical.analysis.sampled import loop_response, sampled_loop
+from umbilical.design.grid import judge_grids, resolved, with_grid_echo
+from umbilical.design.period import linear_period
+from umbilical.interop.python_control import to_control
+
+LOW = np.array([0.05, 0.2, 0.4, 0.7, 1.3])
+
+
+def both(scenario, length: float, thrust: float = 50.0):
+    loop = sampled_loop(scenario, thrust)
+    return linear_period(scenario, loop, length), loop_response(hanging_cable(scenario, length), loop, 1j * LOW).loop
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"ideal_thruster": True},
+        {"control.law.slope_gain": 10.0, "cable.damping": 0.05, "payload.damping": 20.0},
+        {"sensors.tip_displacement.latency": 0.002, "sensors.motor_speed.latency": 0.001},
+        {"grid.step": 2.5e-4},
+        {"cable.wet_line_density": 0.0},
+    ],
+)
+def test_opened_loop_of_the_engine_is_that_of_the_exact_cable(changes):
+    period, exact = both(umbilical.load("ringdown", {"grid.elements": 24} | changes), 300.0)
+    np.testing.assert_allclose(period.transfer(LOW), exact, rtol=1e-5)
+
+
+def test_with_an_outer_law_at_its_own_period():
+    slow = {f"control.{name}_observer.time_constant": 0.01 for name in ("velocity", "slope")}
+    scenario = umbilical.load("ringdown", {"grid.elements": 24, "control.outer_period": 0.004} | slow)
+    period, exact = both(scenario, 300.0)
+    np.testing.assert_allclose(period.transfer(LOW), exact, rtol=1e-5)
+
+
+def test_another_length_would_be_noticed():
+    scenario = umbilical.load("ringdown", {"grid.elements": 24})
+    period, _ = both(scenario, 300.0)
+    _, other = both(scenario, 303.0)
+    assert np.abs(period.transfer(LOW) / other - 1.0).max() > 1e-2
+
+
+def test_it_is_the_jacobian_of_the_engine_with_its_motors():
+    """A pulse of force against none in two real runs, and the same from the matrix, motors at 100 N."""
+    base = {
+        "grid.elements": 4, "winch": {"law": "constant", "length": 100.0}, "duration": 40.5, "output.interval": 0.005,
+        "initial": {"shape": "straight"}, "control.law.slope_gain": 2.0, "cable.damping": 2.0,
+        "environment.payload_force": [{"kind": "constant", "value": 100.0}],
+    }  # fmt: skip
+    size, start = 1e-3, 40.0
+    pulse = {"kind": "pulse", "value": size, "start": start, "end": start + 0.005}
+    with_pulse = {"environment.payload_force": [*base["environment.payload_force"], pulse]}
+    quiet, pushed = (umbilical.simulate(umbilical.load("ringdown", base | extra)) for extra in ({}, with_pulse))
+    moved = ((pushed["tip_displacement"] - quiet["tip_displacement"]).values / size)[round(start / 0.005) :]
+    scenario = umbilical.load("ringdown", base)
+    period = linear_period(scenario, sampled_loop(scenario, 100.0), 100.0)
+    n, size = period.a.shape[0], period.closed.shape[0]
+    force = np.zeros(size)
+    force[10 * 4] = 1e-3 / scenario.payload.mass
+    state, expected = np.zeros(size), []
+    for k in range(501):
+        if k % 5 == 0:
+            expected.append(period.c[0] @ state[:n])
+        state = period.closed @ state + (force if k < 5 else 0.0)
+    np.testing.assert_allclose(moved, expected, atol=0.01 * np.abs(expected).max())
+    assert np.abs(expected).max() > 1e-9
+
+
+def test_eigenvalues_count_what_nyquist_counts():
+    """The closed matrix of a small grid against the count with that grid's echo, below and above its limit."""
+    scenario = umbilical.load("ringdown", {"grid.elements": 12})
+    loop = sampled_loop(scenario, 50.0)
+    period = linear_period(scenario, loop, 100.0)
+    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period)
+    limit = margins(echoed).gain_high.size
+    for gain, stable in ((0.98 * limit, True), (1.02 * limit, False)):
+        largest = np.abs(np.linalg.eigvals(period.scaled(gain).closed)).max()
+        assert (largest <= 1.0 + 1e-9) is stable
+        assert (stability(echoed, scaled(gain)).unstable == 0) is stable
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("beta", [20.0, 35.0])
+def test_what_is_the_cables_and_what_the_grids(beta):
+    """At 100 and 400 nodes the loop seems stable; 1600 nodes carry the waves that the ROV feeds, as a cable does."""
+    scenario = umbilical.load("ringdown", {"control.law.slope_gain": beta})
+    exact = judge(scenario, 400.0)
+    grids = judge_grids(scenario, exact, (25, 100, 400))
+    assert [grid.stability.unstable > 0 for grid in grids] == [False, False, True]
+    assert not exact.stable
+    assert not resolved(grids)
+    worst, fine = exact.stability.worst, grids[-1].stability.worst
+    assert worst is not None
+    assert fine is not None
+    assert fine.frequency == pytest.approx(worst.frequency, rel=0.1)
+    assert fine.rate == pytest.approx(worst.rate, rel=0.1)
+    assert [grid.heard < worst.frequency for grid in grids] == [True, True, False]
+
+
+def test_margins_by_matrix_agree_where_the_grid_is_fine_enough():
+    scenario = umbilical.load("ringdown")
+    grids = judge_grids(scenario, judge(scenario, 400.0), (16, 64, 128))
+    assert grids[0].difference > 0.02
+    assert grids[-1].difference < 0.02
+    assert resolved(grids)
+
+
+def test_to_control_says_the_same():
+    control = pytest.importorskip("control")
+    scenario = umbilical.load("ringdown", {"grid.elements": 8})
+    systems = to_control(scenario, length=100.0)
+    period = linear_period(scenario, sampled_loop(scenario, 50.0), 100.0)
+    theirs = control.frequency_response(systems["loop"], LOW).complex.ravel()
+    np.testing.assert_allclose(theirs, period.transfer(LOW), rtol=1e-6)
+    np.testing.assert_allclose(
+        np.sort(np.abs(systems["closed"].poles())), np.sort(np.abs(np.linalg.eigvals(period.closed))), atol=1e-6
+    )
+    assert systems["loop"].dt == 1e-3
+    product = control.series(systems["plant"], systems["controller"])
+    np.testing.assert_allclose(control.frequency_response(product, LOW).complex.ravel(), theirs, rtol=1e-6)
