@@ -65,7 +65,7 @@ def poles(scenario: Scenario, count: int) -> np.ndarray:
 
     matrix = csc_array(step_matrix(scenario))
     start = np.ones(matrix.shape[0])
-    nearest: Any = eigs(matrix, 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False)
+    nearest = np.asarray(eigs(matrix, 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False))
     found = np.log(nearest) / chosen_step(scenario)
     upper = found[found.imag > 1e-9]
     return upper[np.argsort(upper.imag)][:count]
