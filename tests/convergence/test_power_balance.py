@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.support.orders import orders
 from tests.support.verdicts import assert_holds, each
 from umbilical.verify import power_balance
 from umbilical.verify.cases import Case
@@ -29,3 +30,10 @@ def test_every_term_is_needed(way: tuple[float, float]) -> None:
         opened = np.abs(energy - energy[0] - (total - work)).max() / scale
         assert opened > 100.0 * closed or name in ("work_thrust", "work_grid"), name
     assert not works["work_thrust"].any()
+
+
+@pytest.mark.parametrize("way", WAYS.values(), ids=WAYS)
+def test_what_the_grid_takes_vanishes_with_the_element_size(way: tuple[float, float]) -> None:
+    lost = [moved(way, n, 1e-3).metrics["grid_loss"] for n in (4, 8, 16)]
+    assert orders(lost).min() > 3.9
+    assert lost[-1] < 1e-9

@@ -24,7 +24,7 @@ def another_scenario(change: Callable[[Scenario], Mapping[str, Any]]) -> Break:
     """The engine solves another problem than the one the reference solves."""
 
     def apply(patch: pytest.MonkeyPatch) -> None:
-        for name in ("simulate", "step_poles"):
+        for name in ("simulate", "step_matrix"):
             right = getattr(ours, name)
             patch.setattr(ours, name, lambda scenario, right=right: right(scenario.replace(change(scenario))))
 

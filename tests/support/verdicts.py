@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import pytest
@@ -10,13 +10,9 @@ import pytest
 from umbilical.verify.cases import Case
 
 
-def each(cases: Iterable[Case], marks: Mapping[str, Any] | None = None) -> Any:
-    """One test for each case; those that ``--quick`` leaves out are slow. ``marks`` are more of them, by name."""
-    found = []
-    for case in cases:
-        own = [] if case.quick else [pytest.mark.slow]
-        own += [marks[case.name]] if marks and case.name in marks else []
-        found.append(pytest.param(case, id=case.name, marks=own))
+def each(cases: Iterable[Case]) -> Any:
+    """One test for each case; those that ``--quick`` leaves out are slow."""
+    found = [pytest.param(case, id=case.name, marks=[] if case.quick else [pytest.mark.slow]) for case in cases]
     return pytest.mark.parametrize("case", found)
 
 

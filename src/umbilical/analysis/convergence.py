@@ -14,7 +14,7 @@ class Curve(NamedTuple):
     Attributes:
         name: what the error is of.
         size: what was refined, with its unit.
-        sizes: falling, each half of the one before.
+        sizes: falling.
         errors: one for each size.
         order: the stated one.
     """
@@ -26,11 +26,11 @@ class Curve(NamedTuple):
     order: float
 
 
-def orders(errors: Sequence[float]) -> np.ndarray:
-    """Order between each grid and the next, twice as fine.
+def orders(errors: Sequence[float], sizes: Sequence[float] | None = None) -> np.ndarray:
+    """Order between each grid and the next, which is twice as fine where no ``sizes`` are given.
 
-    >>> orders([1.6, 0.4, 0.1]).tolist()
-    [2.0, 2.0]
+    >>> orders([1.6, 0.4, 0.1]).tolist(), orders([9.0, 1.0], [3.0, 1.0]).tolist()
+    ([2.0, 2.0], [2.0])
     """
-    values = np.asarray(errors)
-    return np.log2(values[:-1] / values[1:])
+    falls = np.log2(np.asarray(errors)[:-1] / np.asarray(errors)[1:])
+    return falls if sizes is None else falls / np.log2(np.asarray(sizes)[:-1] / np.asarray(sizes)[1:])

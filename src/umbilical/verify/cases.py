@@ -131,7 +131,7 @@ def history_close(quantity: str, ours: Any, expected: Any, tolerance: float, why
 
 def order_reached(curve: Curve, why: str) -> Check:
     """The order of the finest pair of grids; the error is what it lacks to the stated one."""
-    found = float(orders(curve.errors)[-1])
+    found = float(orders(curve.errors, curve.sizes)[-1])
     return Check(
         f"order of {curve.name} in {curve.size}", found, curve.order, curve.order - found, ORDER_SLACK, why, curve
     )

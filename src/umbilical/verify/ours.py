@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from umbilical.admission import load
-from umbilical.engine.linear import step_poles
+from umbilical.admission.steps import chosen_step
+from umbilical.engine.linear import step_matrix
 from umbilical.engine.simulate import simulate
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
@@ -56,7 +57,15 @@ def completed(scenario: Scenario) -> Run:
 def poles(scenario: Scenario, count: int) -> np.ndarray:
     """The ``count`` slowest poles above the real axis, 1/s, of the engine's own step with the winch stopped.
 
-    Waves too short for the grid decay within a period or two: they belong to no mode of the cable.
+    A pole s of the cable is an eigenvalue ``exp(s dt)`` of the step, and the slowest are the nearest to 1. Those of
+    waves too short for the grid, and of what the integrator remembers, are far from it.
     """
-    found = step_poles(scenario)
-    return found[(found.imag > 1e-9) & (found.real > -0.3 * found.imag)][:count]
+    from scipy.sparse import csc_array
+    from scipy.sparse.linalg import eigs
+
+    matrix = csc_array(step_matrix(scenario))
+    start = np.ones(matrix.shape[0])
+    nearest = np.asarray(eigs(matrix, 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False))
+    found = np.log(nearest) / chosen_step(scenario)
+    upper = found[found.imag > 1e-9]
+    return upper[np.argsort(upper.imag)][:count]

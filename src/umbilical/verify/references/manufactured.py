@@ -116,3 +116,14 @@ def force(problem: Problem, t: Array) -> Array:
         + problem.mass * (problem.gravity - acceleration) * slope
         + problem.tip_damping * (p.first * s + q.first * c)
     )
+
+
+def wave_amplitude(problem: Problem, t: float) -> float:
+    """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum."""
+    sigma = np.linspace(0.0, 1.0, 201)
+    length, _, acceleration = problem.winch(np.asarray(t))
+    tension = (problem.mass + problem.line_density * length * (1.0 - sigma)) * (problem.gravity - acceleration)
+    slope = np.gradient(displacement(sigma, t), sigma) / length
+    running = np.sqrt(tension / problem.line_density) * slope
+    w = velocity(problem, sigma, t)
+    return float(max(np.abs(w + running).max(), np.abs(w - running).max()))
