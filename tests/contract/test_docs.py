@@ -16,6 +16,7 @@ from umbilical.admission.examine import admit_data
 from umbilical.admission.load import preset_text
 from umbilical.quantities import CHANNELS, METRICS, PARAMETERS
 from umbilical.scenario.document import extend
+from umbilical.studies.load import load_study
 
 ROOT = Path(__file__).parents[2]
 DOCS = sorted((ROOT / "docs").glob("*.md"))
@@ -97,9 +98,13 @@ def test_python_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.Mon
     ("page", "text"),
     [(page.name, text) for page in DOCS for text in blocks(page, "toml")],
 )
-def test_toml_examples_are_scenarios(page: str, text: str) -> None:
-    """An example that does not say what it extends is a piece of one that extends the paper's."""
+def test_toml_examples_are_scenarios(page: str, text: str, tmp_path: Path) -> None:
+    """An example that does not say what it extends is a piece of one that extends the paper's; some are studies."""
     data = {"extends": "paper", **tomllib.loads(text)}
+    if isinstance(data.get("scenario"), str):
+        (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+        load_study(tmp_path / "study.toml")
+        return
     base = tomllib.loads(preset_text(str(data.pop("extends"))))
     while "extends" in base:
         base = extend(tomllib.loads(preset_text(str(base.pop("extends")))), base)

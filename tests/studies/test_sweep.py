@@ -54,6 +54,7 @@ def test_another_seed_is_another_result(reference):
     assert to_netcdf(sweep(small_study(seed=1)).data) != reference
 
 
+@pytest.mark.slow
 def test_a_killed_dask_worker_costs_nothing(reference):
     """Three workers, one of which is killed while members are under way."""
     slow = small_study(scenario__duration=4.0, members=24)
@@ -124,6 +125,7 @@ def test_what_goes_wrong_is_a_row_with_its_reason(monkeypatch):
     assert (result["end_time"].values.reshape(4, 4)[1:3, 2] < 1.0).all()
 
 
+@pytest.mark.slow
 def test_a_python_controller_runs_in_processes_and_threads_alike(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "soft.py").write_text(

@@ -10,6 +10,7 @@ from writing import code, page, table
 from umbilical.admission import load, preset_names, preset_text
 from umbilical.scenario.document import look_up, to_dict
 from umbilical.scenario.text import literal
+from umbilical.studies.load import load_study, study_names
 
 
 def assumed() -> str:
@@ -20,7 +21,16 @@ def assumed() -> str:
         "marks travel into every result and every printed scenario, and a mark disappears when its value is changed. "
         "A preset that extends another keeps the marks of the values it keeps; only what it adds is listed.",
         *filter(None, map(assumptions, sorted(preset_names(), key=lambda name: (name != "paper", name)))),
+        "# Assumed ranges of the studies",
+        "What a study varies, and how far, is ours.",
+        *map(ranges, study_names()),
     )
+
+
+def ranges(name: str) -> str:
+    """What a study assumes."""
+    rows = ((code(what), reason) for what, reason in load_study(name).assumed.items())
+    return f"## `{name}`\n\n{table(('what', 'reason'), rows)}"
 
 
 def assumptions(name: str) -> str:

@@ -73,7 +73,7 @@ def share(count: float, of: int) -> Estimate:
     centre, spread = p + z * z / (2 * of), z * float(np.sqrt(p * (1 - p) / of + z * z / (4 * of * of)))
     scale = 1.0 + z * z / of
     low, high = (centre - spread) / scale, (centre + spread) / scale
-    return Estimate(p, low if count > 0 else 0.0, high if count < of else 1.0)
+    return Estimate(float(p), low if count > 0 else 0.0, high if count < of else 1.0)
 
 
 def compare(values: np.ndarray, reference: np.ndarray) -> Comparison:

@@ -20,7 +20,9 @@ def sweep(
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value of the study; may be repeated.")
     ] = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; named as the study if left out.")] = None,
-    jobs: Annotated[int | None, Option("--jobs", min=1, max=4096, help="How many at once; all cores.")] = None,
+    jobs: Annotated[
+        int | None, Option("--jobs", metavar="N", min=1, max=4096, help="How many at once; all cores.")
+    ] = None,
     processes: Annotated[bool, Option("--processes", help="Processes instead of threads.")] = False,
     dask: Annotated[str | None, Option("--dask", metavar="ADDRESS|local", help="Workers of a Dask cluster.")] = None,
     resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
@@ -101,7 +103,7 @@ def _announce(study: Study) -> None:
 def member(
     study: Annotated[str, Argument(help="A study's name, a .toml file, or a .nc result.")],
     number: Annotated[int, Argument(help="The member, from 1.")],
-    arm: Annotated[str | None, Option("--arm", help="An arm's name; the first if left out.")] = None,
+    arm: Annotated[str | None, Option("--arm", metavar="NAME", help="An arm's name; the first if left out.")] = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Write it to a file.")] = None,
     changes: Annotated[
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="The study's changes; may be repeated.")

@@ -24,7 +24,9 @@ def tune(
     optimiser: Annotated[
         Literal["auto", "optuna", "scipy"], Option("--optimiser", help="auto: Optuna where it is installed.")
     ] = "auto",
-    jobs: Annotated[int | None, Option("--jobs", min=1, max=4096, help="Members at once; all cores.")] = None,
+    jobs: Annotated[
+        int | None, Option("--jobs", metavar="N", min=1, max=4096, help="Members at once; all cores.")
+    ] = None,
     resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
     force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
