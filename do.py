@@ -25,6 +25,10 @@ STAMP = VENV / "installed-from"
 LOCK = ROOT / "requirements.lock"
 
 
+ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
+"""Small matrices on many threads take ten times longer when the machine is busy."""
+
+
 def call(*command: str | Path, **environment: str) -> bool:
     """Run a command from the project's folder with its own output; True when it succeeded."""
     print("+", *(f"{k}={v}" for k, v in environment.items()), *map(_shown, command), flush=True)
@@ -84,7 +88,7 @@ def run() -> Iterable[bool]:
 
 def test() -> Iterable[bool]:
     """The default tests."""
-    yield call(PYTHON, "-m", "pytest")
+    yield call(PYTHON, "-m", "pytest", **ONE_THREAD)
 
 
 def check() -> Iterable[bool]:
@@ -97,7 +101,7 @@ def check() -> Iterable[bool]:
 
 def thorough() -> Iterable[bool]:
     """Slow tests; kernels as plain Python, with what of them is covered; kernels with their array bounds checked."""
-    yield call(PYTHON, "-m", "pytest", "-m", "slow")
+    yield call(PYTHON, "-m", "pytest", "-m", "slow", "-rs", **ONE_THREAD)
     # Only plain Python shows which lines and branches of a kernel a test has been through.
     yield call(PYTHON, "-m", "coverage", "run", "-m", "pytest", "-m", "nojit", NUMBA_DISABLE_JIT="1")
     yield call(PYTHON, "-m", "coverage", "report")
