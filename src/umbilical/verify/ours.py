@@ -63,9 +63,9 @@ def poles(scenario: Scenario, count: int) -> np.ndarray:
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import eigs
 
-    matrix = csc_array(step_matrix(scenario))
-    start = np.ones(matrix.shape[0])
-    nearest = np.asarray(eigs(matrix, 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False))
-    found = np.log(nearest) / chosen_step(scenario)
-    upper = found[found.imag > 1e-9]
-    return upper[np.argsort(upper.imag)][:count]
+    step = step_matrix(scenario)
+    start = np.ones(len(step))
+    nearest = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False)
+    found = np.log(np.asarray(nearest)) / chosen_step(scenario)
+    upper = found[np.imag(found) > 1e-9]
+    return upper[np.argsort(np.imag(upper))][:count]
