@@ -147,6 +147,15 @@ def test_what_tuning_lacks_is_said():
         tuned_study(arm="PDD")
 
 
+def test_margins_are_a_condition():
+    """The paper's loop is stable and lacks margin; with slow observers it is unstable, and no law has no loop."""
+    paper = load("paper")
+    assert 0.0 < CONSTRAINTS["margins"](paper) < 1.0
+    lame = {"control.velocity_observer.time_constant": 0.05, "control.disturbance_observer.gain": 200.0}
+    assert CONSTRAINTS["margins"](paper.replace(lame)) >= 1.0
+    assert CONSTRAINTS["margins"](load("paper-none")) > 0.0
+
+
 def test_the_certificate_is_a_condition():
     """Hauling in, a beta of 0.01 cannot be certified and one of 20 can; PD never."""
     hauling = load("haul-in", {"control.law.slope_gain": 20.0})
