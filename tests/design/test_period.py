@@ -88,7 +88,7 @@ def test_eigenvalues_count_what_nyquist_counts():
     limit = margins(echoed).gain_high.size
     for gain, stable in ((0.98 * limit, True), (1.02 * limit, False)):
         largest = np.abs(np.linalg.eigvals(period.scaled(gain).closed)).max()
-        assert (largest <= 1.0 + 1e-9) is stable
+        assert bool(largest <= 1.0 + 1e-9) is stable
         assert (stability(echoed, scaled(gain)).unstable == 0) is stable
 
 
@@ -125,9 +125,20 @@ def test_to_control_says_the_same():
     period = linear_period(scenario, sampled_loop(scenario, 50.0), 100.0)
     theirs = control.frequency_response(systems["loop"], LOW).complex.ravel()
     np.testing.assert_allclose(theirs, period.transfer(LOW), rtol=1e-6)
-    np.testing.assert_allclose(
-        np.sort(np.abs(systems["closed"].poles())), np.sort(np.abs(np.linalg.eigvals(period.closed))), atol=1e-6
-    )
+    ours, closed = (np.sort(np.abs(x)) for x in (np.linalg.eigvals(period.closed), systems["closed"].poles()))
+    np.testing.assert_allclose(closed, ours, atol=1e-6)
     assert systems["loop"].dt == 1e-3
     product = control.series(systems["plant"], systems["controller"])
     np.testing.assert_allclose(control.frequency_response(product, LOW).complex.ravel(), theirs, rtol=1e-6)
+
+
+def test_gain_margin_of_python_control_is_ours():
+    control = pytest.importorskip("control")
+    scenario = umbilical.load("ringdown", {"grid.elements": 12})
+    loop = sampled_loop(scenario, 50.0)
+    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), linear_period(scenario, loop, 100.0))
+    limit = margins(echoed).gain_high.size
+    opened = to_control(scenario, length=100.0)["loop"]
+    for gain, stable in ((0.99 * limit, True), (1.01 * limit, False)):
+        closed = control.feedback(gain * opened, 1, sign=1)
+        assert bool(np.abs(closed.poles()).max() <= 1.0 + 1e-9) is stable

@@ -8,6 +8,8 @@ import pytest
 from umbilical.plant import faults
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Partial, Ramp, Stuck
 
+pytestmark = pytest.mark.nojit
+
 BEFORE = float(np.nextafter(10.0, 0.0))
 
 

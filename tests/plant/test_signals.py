@@ -11,6 +11,8 @@ from umbilical.plant import signals
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table
 
+pytestmark = pytest.mark.nojit
+
 TIMES = (0.0, 0.7, 2.0, 3.1, 4.5, 6.0)
 VALUES = (1.0, -2.0, 0.5, 3.0, 2.0, -1.0)
 SMOOTH: dict[str, Any] = {

@@ -16,6 +16,8 @@ from umbilical.scenario.winch import (
     Winch,
 )
 
+pytestmark = pytest.mark.nojit
+
 LAWS: dict[str, Winch] = {
     "constant": ConstantLength(law="constant", length=400.0),
     "speed": ConstantSpeed(law="speed", start_length=500.0, speed=-1.5),

@@ -50,8 +50,7 @@ def design(
       umbilical design paper --objective rejection --limits voltage=40,chatter=0.05
       umbilical design my.toml --inner --out tuned.toml
 
-    The exit code says that the search was done; `met` in --json and the text say whether all margins and
-    limits are kept.
+    Exit code 7: some margin or limit is not kept; what was found is told all the same.
     """
     chosen = load_changed(scenario, changes or [])
     if out:
@@ -75,7 +74,7 @@ def design(
         say_json(document(found) | {"files": files})
     else:
         say("\n".join([text(found), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0
+    return 0 if found.met else 7
 
 
 def _limits(words: str | None) -> Limits:

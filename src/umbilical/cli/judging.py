@@ -46,8 +46,7 @@ def margins(
       umbilical margins paper --lengths 100,300,500 --plot margins.png
       umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
 
-    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 0 says that they were
-    computed, not that the loop is stable: read `stable` in --json.
+    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 7: not stable at every length.
     """
     chosen = load_changed(scenario, changes or [])
     if plot:
@@ -62,7 +61,7 @@ def margins(
         say_json(document(report) | {"files": files})
     else:
         say("\n".join([text(report), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0
+    return 0 if report.stable else 7
 
 
 def _numbers(words: str | None) -> list[float] | None:

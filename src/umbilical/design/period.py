@@ -45,7 +45,7 @@ class LinearPeriod:
         """Readings per commanded thrust at frequencies, rad/s, shape (len(w), 4): one sparse solve each."""
         from scipy.sparse.linalg import splu
 
-        one = sparse.eye_array(self.a.shape[0], format="csc", dtype=complex)
+        one: Sparse = sparse.eye_array(self.a.shape[0], format="csc")
         shifted = (sparse.csc_array(np.exp(1j * x * self.period) * one - self.a) for x in w)
         return np.array([self.c @ splu(s).solve(self.b[:, 0].astype(complex)) for s in shifted])
 
@@ -84,11 +84,11 @@ def linear_period(scenario: Scenario, loop: SampledLoop, length: float) -> Linea
 
 def _cable_step(linear: Linear) -> Sparse:
     """State and its last two rates to the same a step later, as :func:`umbilical.engine.linear.step_matrix`."""
-    rates, (now, last, before) = linear.rates, linear.step * EXPLICIT[2]
-    one = sparse.eye_array(rates.shape[0])
-    return sparse.csc_array(
-        sparse.block_array([[one + now * rates, last * one, before * one], [rates, None, None], [None, one, None]])
-    )
+    rates: Sparse = linear.rates
+    now, last, before = linear.step * EXPLICIT[2]
+    one: Sparse = sparse.eye_array(linear.push.size)
+    blocks: Sparse = [[one + now * rates, last * one, before * one], [rates, None, None], [None, one, None]]
+    return sparse.csc_array(sparse.block_array(blocks))
 
 
 def _force_entry(linear: Linear) -> list[np.ndarray]:

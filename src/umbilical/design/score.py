@@ -1,8 +1,8 @@
 """How good a set of gains is, from the sampled loop without a grid: milliseconds for one set.
 
 What the controlled ROV reflects does not depend on the length of the cable. Above the first modes the echo
-may return in any phase, so a loop that survives a change at *every* length is one that then reflects no more
-than the cable takes away in a round trip::
+may return in any phase, so a loop that survives a change at *every* length from the shortest on is one that
+then reflects no more than the shortest cable takes away in a round trip::
 
     |echo| |R(w; f)| < 1 at all w      for f = gain, 1/gain, lag, lead, delay
 

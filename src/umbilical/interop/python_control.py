@@ -13,7 +13,7 @@ from umbilical.design.period import linear_period
 from umbilical.errors import MissingPartnerError
 from umbilical.scenario.scenario import Scenario
 
-READINGS = ("tip_displacement", "tip_slope", "tip_velocity", "tip_slope_rate")
+READINGS: tuple[str, ...] = ("tip_displacement", "tip_slope", "tip_velocity", "tip_slope_rate")
 
 
 def to_control(

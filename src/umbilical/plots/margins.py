@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from umbilical.analysis.margins import Judgement
     from umbilical.design.margins import MarginReport
 
+LOWEST = 1e-2
+"""rad/s; nothing happens below."""
 SHOWN_LOOP = 3.0
 """Largest |L| in the Nyquist picture, where a margin is read."""
 MOST_POINTS = 40_000
@@ -47,6 +49,7 @@ def plot_reflection(report: MarginReport, *, ax: Axes) -> Axes:
         speed = shortest.sweep.cable.tip_wave_speed
         ideal = abs(speed - law.slope_gain) / (speed + law.slope_gain)
         ax.axhline(ideal, color=QUIET, linestyle="--", linewidth=1.0, label="ideal law")
+    ax.set_xlim(LOWEST, None)
     return _finish(ax, "reflection of the ROV |R|", "")
 
 
@@ -77,6 +80,8 @@ def plot_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
             if np.isfinite(limit.frequency):
                 size.axvline(limit.frequency, color=COLOURS[number], linestyle=":", linewidth=0.9)
     size.axhline(1.0, color=QUIET, linestyle=":", linewidth=1.0)
+    for ax in axes:
+        ax.set_xlim(LOWEST, None)
     _finish(size, "size of L; lines where phase and delay are used up", "|L|")
     _finish(angle, "angle of L", "degrees")
 
