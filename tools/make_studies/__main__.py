@@ -72,7 +72,7 @@ def against(result: StudyResult) -> str:
 
 def percent(share: Estimate) -> str:
     """A share with its interval."""
-    return f"{100 * share.value:.3g} % ({100 * share.low:.2g} to {100 * share.high:.2g})"
+    return f"{100 * share.value:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g})"
 
 
 def between(text: str, name: str, content: str) -> str:

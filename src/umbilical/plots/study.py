@@ -46,7 +46,7 @@ def _beyond(result: StudyResult, metric: str, arm: str) -> str:
     if (limit := result.study.limits.get(metric)) is None:
         return ""
     found = exceedance(result.values(metric, arm), limit)
-    return f"\n  beyond {limit:g}: {100 * found.value:.3g} % ({100 * found.low:.2g} to {100 * found.high:.2g})"
+    return f"\n  beyond {limit:g}: {100 * found.value:.3g} % ({100 * found.low:.3g} to {100 * found.high:.3g})"
 
 
 def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None = None) -> Axes:
