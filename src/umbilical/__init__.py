@@ -18,11 +18,15 @@ if TYPE_CHECKING:
     from umbilical.admission import load, preset_names
     from umbilical.analysis.certificate import Certificate, certify
     from umbilical.control.contract import Command, Controller, Measurement
+    from umbilical.design.margins import margins
     from umbilical.engine.simulate import simulate
+    from umbilical.interop.python_control import to_control
     from umbilical.plots import (
         plot_cable,
         plot_certificate,
+        plot_design,
         plot_energy,
+        plot_margins,
         plot_motors,
         plot_observers,
         plot_overview,
@@ -54,11 +58,14 @@ _HOMES = {
     "certify": "umbilical.analysis.certificate",
     "load": "umbilical.admission",
     "load_study": "umbilical.studies.load",
+    "margins": "umbilical.design.margins",
     "open_run": "umbilical.run",
     "open_study": "umbilical.studies.results",
     "plot_cable": "umbilical.plots",
     "plot_certificate": "umbilical.plots",
+    "plot_design": "umbilical.plots",
     "plot_energy": "umbilical.plots",
+    "plot_margins": "umbilical.plots",
     "plot_motors": "umbilical.plots",
     "plot_observers": "umbilical.plots",
     "plot_overview": "umbilical.plots",
@@ -68,6 +75,7 @@ _HOMES = {
     "preset_names": "umbilical.admission",
     "simulate": "umbilical.engine.simulate",
     "sweep": "umbilical.studies.sweep",
+    "to_control": "umbilical.interop.python_control",
     "tune": "umbilical.studies.tune",
 }
 
@@ -84,11 +92,14 @@ __all__ = [
     "certify",
     "load",
     "load_study",
+    "margins",
     "open_run",
     "open_study",
     "plot_cable",
     "plot_certificate",
+    "plot_design",
     "plot_energy",
+    "plot_margins",
     "plot_motors",
     "plot_observers",
     "plot_overview",
@@ -98,6 +109,7 @@ __all__ = [
     "preset_names",
     "simulate",
     "sweep",
+    "to_control",
     "tune",
 ]
 

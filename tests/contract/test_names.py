@@ -23,11 +23,14 @@ NAMES = {
     "certify",
     "load",
     "load_study",
+    "margins",
     "open_run",
     "open_study",
     "plot_cable",
     "plot_certificate",
+    "plot_design",
     "plot_energy",
+    "plot_margins",
     "plot_motors",
     "plot_observers",
     "plot_overview",
@@ -37,6 +40,7 @@ NAMES = {
     "preset_names",
     "simulate",
     "sweep",
+    "to_control",
     "tune",
 }
 

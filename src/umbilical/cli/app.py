@@ -102,6 +102,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         The exit code, see :data:`umbilical.cli.speech.EXIT_CODES`.
     """
     given = list(sys.argv[1:] if arguments is None else arguments)
+    # Read when numpy is first imported: our matrices are small, and threads cost them more than they bring.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     debug = "--debug" in given
     try:
         return _invoke([word for word in given if word != "--debug"])

@@ -7,6 +7,7 @@ velocities of a block (5, 2 n) as they lie in memory (``plant/layout.py``), then
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,6 +21,7 @@ from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.plant import winch
 from umbilical.plant.cable import PRESENT, RATES, TIP_RATES
 from umbilical.plant.cable import TIP_VELOCITY as VELOCITY_OF_PAYLOAD
+from umbilical.plant.elements import DEGREE, WEIGHTS
 from umbilical.plant.exogenous import Outside, Steps
 from umbilical.plant.multistep import EXPLICIT
 from umbilical.scenario.scenario import Scenario
@@ -61,13 +63,39 @@ def linearise(scenario: Scenario, time: float = 0.0) -> Linear:
     world, step = setup.world, setup.clock.period / setup.clock.substeps
     enter_step(world.plant, world.state, Outside(still).sample(Steps(np.zeros(1), np.full(1, step), np.zeros(0))), 0)
     size = world.state.blocks[PRESENT].size + 1
-    columns, samples = [], np.empty((len(SAMPLES), size))
-    for k in range(size):
-        rate, samples[:, k] = _look(world, k)
-        columns.append(sparse.csc_array(rate[:, None]))
+    entries, samples = [], np.zeros((len(SAMPLES), size))
+    samples[0, :-1].reshape(5, -1)[:, : still.grid.elements] = WEIGHTS[:, None] / (2 * still.grid.elements)
+    for columns in _independent(still.grid.elements):
+        rate, sampled = _look(world, columns, size)
+        entries.append(_entries(rate, columns, still.grid.elements))
+        # The ROV feels and the sensors see the last element and the ROV only; the displacement is the sum above.
+        last = columns[-1]
+        samples[1:, last] = sampled[1:]
+    rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
     push = np.zeros(size)
     push[-1] = 1.0 / still.payload.mass
-    return Linear(sparse.csc_array(sparse.hstack(columns)), push, samples, step)
+    return Linear(sparse.csc_array((values, (rows, columns)), shape=(size, size)), push, samples, step)
+
+
+def _independent(elements: int) -> Iterator[np.ndarray]:
+    """Places of the state that no rate depends on together: every third element, as neighbours only meet; the ROV."""
+    for node in range(DEGREE + 1):
+        for half in (0, elements):
+            for first in range(min(3, elements)):
+                yield 2 * elements * node + half + np.arange((elements - 1 - first) % 3, elements, 3)
+    yield np.array([2 * elements * (DEGREE + 1)])
+
+
+def _entries(rate: np.ndarray, columns: np.ndarray, elements: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Rows, columns and values of the Jacobian from the rates at several unit vectors at once."""
+    size = rate.size
+    element = np.full(size, elements - 1)
+    element[:-1] = np.tile(np.arange(elements), 2 * (DEGREE + 1))
+    of = np.full(1, elements - 1) if columns[0] == size - 1 else columns % elements
+    row, which = np.nonzero(np.abs(element[:, None] - of) <= 1)
+    felt = (row < size - 1) | (of[which] == elements - 1)
+    row, which = row[felt], which[felt]
+    return row, columns[which], rate[row]
 
 
 def step_poles(scenario: Scenario, time: float = 0.0) -> Any:
@@ -119,12 +147,12 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
     )
 
 
-def _look(world: World, k: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rates and samples at the k-th unit vector of the state."""
+def _look(world: World, columns: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
+    """Rates and samples at the sum of some unit vectors of the state."""
     state = world.state
     block, ends = state.blocks[PRESENT], state.ends
-    unit = np.zeros(block.size + 1)
-    unit[k] = 1.0
+    unit = np.zeros(size)
+    unit[columns] = 1.0
     block.flat[:], ends[VELOCITY_OF_PAYLOAD] = unit[:-1], unit[-1]
     find_rates(world.plant, state)
     read_truth(state, world.readings)
