@@ -181,7 +181,7 @@ def _finish(ax: Axes, title: str) -> Axes:
     ax.set_title(title, fontsize=9.5, loc="left")
     ax.grid(alpha=0.25, linewidth=0.6)
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(fontsize=7, frameon=False, loc="best")
+    ax.legend(fontsize=7, frameon=True, framealpha=0.9, edgecolor="none", loc="best")  # lines may run behind it
     return ax
 
 
