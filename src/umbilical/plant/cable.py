@@ -109,22 +109,25 @@ def meet(
     scale, above = 1.0 / length, cable.above_faces
     foot = cable.payload_mass * net_gravity / cable.line_density
     rise = cable.hanging_density * length * net_gravity / cable.line_density
-    behind, ahead, left, right = x[4], x[0], faces[LEFT], faces[RIGHT]
+    before, w_before, after, w_after = x[4, :n], x[4, n:], x[0, :n], x[0, n:]
+    flow, pull = faces[LEFT, :n], faces[LEFT, n:]
     for f in range(1, n):
-        transport = speed * above[f]
-        square = foot + rise * above[f]
+        transport, square = speed * above[f], foot + rise * above[f]
         wave_speed = sqrt(square)
-        before, after, w_before, w_after = behind[f - 1] * scale, ahead[f] * scale, behind[n + f - 1], ahead[n + f]
-        step, w_step = after - before, w_after - w_before
-        slope = 0.5 * (before + after + w_step / wave_speed)
-        velocity = 0.5 * (w_before + w_after + step * wave_speed)
+        p, q, u, w = before[f - 1] * scale, after[f] * scale, w_before[f - 1], w_after[f]
+        step, w_step = q - p, w - u
+        slope, velocity = 0.5 * (p + q + w_step / wave_speed), 0.5 * (u + w + step * wave_speed)
         impedance = cable.line_density * wave_speed
         losses[f] = impedance * (transport * step * w_step - 0.5 * (w_step * w_step + square * step * step))
-        flow, pull = velocity - transport * slope, scale * (square * slope - transport * velocity)
-        left[f] = flow
-        right[f - 1] = flow
-        left[n + f] = pull
-        right[n + f - 1] = pull
+        flow[f] = velocity - transport * slope
+        pull[f] = scale * (square * slope - transport * velocity)
+    # What flows into an element on its left has left its neighbour on the right. A loop of its own: fewer arrays in
+    # one loop, and the compiler does several interfaces at once.
+    flow_out, pull_out = faces[RIGHT, :n], faces[RIGHT, n:]
+    for f in range(1, n):
+        flow_out[f - 1] = flow[f]
+    for f in range(1, n):
+        pull_out[f - 1] = pull[f]
 
 
 @kernel

@@ -77,9 +77,8 @@ def published_jumps(scenario: Scenario) -> tuple[float, ...]:
     return tuple(sorted(t for t in instants if 0.0 <= t <= scenario.duration))
 
 
-def profile(shape: Profile, elements: int) -> Array:
-    """A load's profile at the nodes, shape (4 n + 1,)."""
-    sigma = positions(elements)
+def profile(shape: Profile, sigma: Array) -> Array:
+    """A load's profile at positions ``sigma = x/l``, same shape."""
     match shape:
         case SineProfile():
             return np.sin(shape.half_waves * np.pi * sigma)
@@ -93,7 +92,8 @@ def profile(shape: Profile, elements: int) -> Array:
 
 def profiles(scenario: Scenario) -> Array:
     """Profiles of all loads along the cable, shape (loads, 4 n + 1)."""
-    rows = [profile(load.profile, scenario.grid.elements) for load in scenario.environment.cable_load]
+    sigma = positions(scenario.grid.elements)
+    rows = [profile(load.profile, sigma) for load in scenario.environment.cable_load]
     return np.array(rows) if rows else np.zeros((0, 4 * scenario.grid.elements + 1))
 
 

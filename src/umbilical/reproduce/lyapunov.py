@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.relations.formulas import tension
+from umbilical.analysis.certificate.lyapunov import boundary_function, cable_function
+from umbilical.analysis.certificate.records import Weights
 from umbilical.run import Run
 from umbilical.scenario.control import BoundaryLaw
 
@@ -35,29 +36,9 @@ def lyapunov(run: Run) -> dict[str, np.ndarray]:
     longest = float(run["length"].max())
     lam = min(beta / longest, tip / (beta * rho * longest)) / MARGIN
     eta = MARGIN * tip / (2.0 * beta * law.damping_gain)
-    kinetic, potential, crossed = _integrals(run)
-    error = run["tip_velocity"].values + beta * run["tip_slope"].values
-    lost = run["disturbance"].values - run["disturbance_estimate"].values
-    parts = {
-        "V_1": 0.5 * (kinetic + potential),
-        "V_2": lam * crossed,
-        "V_3": eta / 2 * mass * error**2 + eta / (2 * observer.gain * observer.coupling) * lost**2,
-    }
-    return {"V": sum(parts.values(), np.zeros_like(error)), **parts}
-
-
-def _integrals(run: Run) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """int rho W^2, int T p^2 and rho int x p W along the cable, by the midpoint rule between nodes."""
-    scenario = run.scenario
-    sigma = run["sigma"].values
-    cells = np.diff(sigma) > 0.0
-    length = run["length"].values[:, None]
-    width = np.diff(sigma)[cells] * length
-    middle = (0.5 * (sigma[1:] + sigma[:-1]))[cells] * length
-    slope, speed = (
-        (0.5 * (values[:, 1:] + values[:, :-1]))[:, cells] for values in (run["slope"].values, run["velocity"].values)
-    )
-    net = (scenario.environment.gravity - run["payout_acceleration"].values)[:, None]
-    pull = tension(length - middle, net, scenario.payload.mass, scenario.cable.hanging_density)
-    rho = scenario.cable.line_density
-    return tuple((f * width).sum(axis=1) for f in (rho * speed**2, pull * slope**2, rho * middle * slope * speed))  # type: ignore[return-value]
+    read = {str(name): values.values for name, values in {**run.data.data_vars, **run.data.coords}.items()}
+    weights = Weights(cross=lam, vessel=0.0, boundary=eta)
+    energy = cable_function(scenario, read, weights._replace(cross=0.0))
+    total = cable_function(scenario, read, weights)
+    boundary = boundary_function(scenario, read, weights)
+    return {"V": total + boundary, "V_1": energy, "V_2": total - energy, "V_3": boundary}

@@ -13,9 +13,9 @@ import numpy as np
 
 from umbilical.analysis.certificate.records import Weights
 from umbilical.plant import signals, winch
+from umbilical.plant.exogenous import profile
 from umbilical.relations.formulas import tension
 from umbilical.scenario.control import BoundaryLaw
-from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 
 Array = np.ndarray
@@ -146,17 +146,5 @@ def loads_along(scenario: Scenario, time: Array, sigma: Array) -> Array:
     """f(x,t) of all loads along the cable at ``sigma = x/l``, N/m, shape of ``sigma`` (time, points)."""
     total = np.zeros(sigma.shape)
     for load in scenario.environment.cable_load:
-        total += _profile(load.profile, sigma) * signals.evaluate(load.signal, time)[:, None]
+        total += profile(load.profile, sigma) * signals.evaluate(load.signal, time)[:, None]
     return total
-
-
-def _profile(shape: Profile, sigma: Array) -> Array:
-    match shape:
-        case SineProfile():
-            return np.sin(shape.half_waves * np.pi * sigma)
-        case GaussianProfile():
-            return np.exp(-(((sigma - shape.center) / shape.width) ** 2))
-        case TableProfile():
-            return np.interp(sigma, shape.positions, shape.values)
-        case _:
-            return np.ones_like(sigma)
