@@ -39,11 +39,12 @@ def reproduce(
     from umbilical.reproduce import reproduction
     from umbilical.reproduce.article import article
     from umbilical.reproduce.expected import deviations
+    from umbilical.studies.engines import default_jobs
 
     make_room(out, reproduction.targets(reproduction.choose(names, maps=maps), out, report=not names), force=force)
     announce_compilation()
     with bar("reproducing the paper") as advance:
-        found = reproduction.reproduce(names, maps=maps, progress=advance)
+        found = reproduction.reproduce(names, maps=maps, processes=default_jobs(), progress=advance)
     moved = deviations(found.findings, complete=maps) if found.findings else []
     written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
     if as_json:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,6 +20,7 @@ from umbilical.reproduce.ledger import Evidence, Finding
 from umbilical.reproduce.slices import compute_slices
 from umbilical.reproduce.tabular import to_csv
 from umbilical.reproduce.work import Progress, in_parallel, parts
+from umbilical.studies.engines import worker_processes
 
 if TYPE_CHECKING:
     import xarray
@@ -57,12 +59,15 @@ def choose(names: Sequence[str], *, maps: bool) -> tuple[Picture, ...]:
     return tuple(picture for picture in chosen if maps or not picture.mapped)
 
 
-def reproduce(names: Sequence[str] = (), *, maps: bool = True, progress: Progress | None = None) -> Reproduction:
+def reproduce(
+    names: Sequence[str] = (), *, maps: bool = True, processes: int = 1, progress: Progress | None = None
+) -> Reproduction:
     """Run the paper's experiments and judge its claims.
 
     Args:
         names: figures; all of them, and the ledger, if empty.
         maps: whether to run the thousands of runs behind the maps.
+        processes: how many draw the figures; with more than one, a script needs its ``if __name__ == "__main__"``.
         progress: called with the share done, 0 to 1.
 
     Raises:
@@ -74,11 +79,7 @@ def reproduce(names: Sequence[str] = (), *, maps: bool = True, progress: Progres
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
     slices = compute_slices(mapping) if mapped else {}
     findings = () if names else judge(Evidence(runs, slices, find_edges(slices, edging)))
-    shown = []
-    for picture in pictures:
-        shown.append(show(picture, runs, slices))
-        drawing(len(shown) / len(pictures))
-    return Reproduction(runs, slices, tuple(shown), findings)
+    return Reproduction(runs, slices, show_all(pictures, runs, slices, processes, drawing), findings)
 
 
 def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:
@@ -95,10 +96,29 @@ def find_edges(slices: Mapping[str, xarray.Dataset], progress: Progress | None =
     return {**found, EDGE: float(regions.same_on_grids(found["without, on"], "without", "on"))}
 
 
+def show_all(
+    pictures: Sequence[Picture], runs: Runs, slices: Mapping[str, xarray.Dataset], processes: int, progress: Progress
+) -> tuple[Shown, ...]:
+    """All figures with their data; drawing takes as long as running, so several processes share it."""
+    names, data = [p.name for p in pictures], [p.data(runs, slices) for p in pictures]
+    shown = []
+    with worker_processes(processes) if processes > 1 else nullcontext() as pool:
+        drawn = pool.map(draw, names, data) if pool else map(draw, names, data)
+        for picture, of, files_of in zip(pictures, data, drawn, strict=True):
+            shown.append(Shown(picture, of, *files_of))
+            progress(len(shown) / len(pictures))
+    return tuple(shown)
+
+
 def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> Shown:
     """One figure with its data, as the bytes of its files."""
     data = picture.data(runs, slices)
-    figure = picture.draw(data)
+    return Shown(picture, data, *draw(picture.name, data))
+
+
+def draw(name: str, data: xarray.Dataset) -> tuple[dict[str, bytes], bytes]:
+    """The files of a figure by ending, and the figure as SVG for the report."""
+    figure = PICTURES[name].draw(data)
     figure.draw_without_rendering()
     figure.set_layout_engine(None)  # laid out once; the three renderings then only draw
     contents = {
@@ -107,7 +127,7 @@ def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> 
         "nc": to_netcdf(data),
         "csv": to_csv(data),
     }
-    return Shown(picture, data, contents, render(figure, "svg", dpi=RESOLUTION // 2))
+    return contents, render(figure, "svg", dpi=RESOLUTION // 2)
 
 
 def targets(pictures: Sequence[Picture], folder: Path, *, report: bool) -> list[Path]:

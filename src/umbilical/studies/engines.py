@@ -60,10 +60,15 @@ def processes(jobs: int) -> Engine:
 
 
 def _one_pool(jobs: int, packed: bytes, members: Iterable[Member]) -> Iterator[Row]:
+    with worker_processes(jobs) as pool:
+        yield from in_pool(pool, _Packed(packed), members, 2 * jobs)
+
+
+def worker_processes(jobs: int) -> ProcessPoolExecutor:
+    """Fresh processes (a fork would inherit our threads' locks), which end when this one does."""
     from multiprocessing import get_context
 
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent) as pool:
-        yield from in_pool(pool, _Packed(packed), members, 2 * jobs)
+    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
 
 
 def in_pool(pool: Executor, function: Callable[[Work], Done], items: Iterable[Work], window: int) -> Iterator[Done]:
