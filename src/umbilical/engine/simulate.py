@@ -148,7 +148,7 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
 def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: bool = True) -> Setup:
     """The plant at rest with its sensors, record and controller, before the first step.
 
-    With ``stored`` false the record holds the first and the last sample only.
+    With ``stored`` false the record holds the first and the last sample only, and no power is booked.
     """
     period, every = scenario.control.period, 1
     if controller is not None:
@@ -157,7 +157,7 @@ def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: 
     motors = len(scenario.motors)
     sensors = make_sensors(scenario)
     world = loop.World(
-        make_plant(scenario),
+        make_plant(scenario, booked=stored),
         make_plant_state(scenario),
         sensors,
         make_sensor_state(sensors),

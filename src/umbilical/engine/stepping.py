@@ -73,12 +73,14 @@ AT_START, MEAN, BEFORE = range(3)
 class Plant(NamedTuple):
     """Constants of everything that moves; ``ideal`` delivers the commanded thrust as it is.
 
+    ``booked`` adds up what the power balance needs along the cable; the motion does not depend on it.
     ``explicit`` and ``implicit`` are the weights of the multistep method, see ``plant/multistep.py``.
     """
 
     cable: Cable
     motors: np.ndarray
     ideal: bool
+    booked: bool
     explicit: np.ndarray
     implicit: np.ndarray
 
@@ -123,10 +125,10 @@ class PlantState(NamedTuple):
     drive: np.ndarray
 
 
-def make_plant(scenario: Scenario) -> Plant:
+def make_plant(scenario: Scenario, *, booked: bool = True) -> Plant:
     """The true plant of a scenario."""
     cable, motors = make_cable(scenario, profiles(scenario)), make_motors(scenario.motors)
-    return Plant(cable, motors, scenario.ideal_thruster, EXPLICIT, IMPLICIT)
+    return Plant(cable, motors, scenario.ideal_thruster, booked, EXPLICIT, IMPLICIT)
 
 
 def make_plant_state(scenario: Scenario) -> PlantState:
@@ -213,8 +215,9 @@ def settle(plant: Plant, state: PlantState, half: float) -> None:
     look_at_ends(cable, x, ends, length, speed, gravity, vessel)
     power, work = state.power_ends[NOW], state.power_ends[SINCE_START]
     book_at_ends(cable, ends, power, work, half, length, speed, gravity, vessel)
-    along, done = state.power_along[NOW], state.power_along[SINCE_START]
-    book_along(cable, x, along, done, half, length, gravity, now[JERK_RATIO], state.last[JERK], state.loads)
+    if plant.booked:
+        along, done = state.power_along[NOW], state.power_along[SINCE_START]
+        book_along(cable, x, along, done, half, length, gravity, now[JERK_RATIO], state.last[JERK], state.loads)
     state.last[JERK] = now[JERK_RATIO]
 
 
@@ -260,7 +263,8 @@ def advance_cable(plant: Plant, state: PlantState, dt: float) -> None:
     for k in range(state.weights.size):
         state.weights[k] = dt * plant.explicit[state.history[AGE], k]
     march_cable(plant, state, (state.history[NEWEST] + 1) % 3)
-    add_power(state.losses[SINCE_START], state.losses[NOW], dt)
+    if plant.booked:
+        add_power(state.losses[SINCE_START], state.losses[NOW], dt)
 
 
 @glue
