@@ -11,12 +11,13 @@ import pytest
 import xarray
 
 from tests.support.studies import small_study
-from umbilical.engine.simulate import simulate
+from umbilical.engine.simulate import measure, simulate
 from umbilical.errors import FileError
 from umbilical.formats import to_netcdf
 from umbilical.run import open_run
 from umbilical.studies import engines, rows
 from umbilical.studies.cluster import connect, dask, on_client
+from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 from umbilical.studies.results import assemble, open_study
 from umbilical.studies.sweep import disk_needed, sweep, worst
@@ -176,3 +177,15 @@ def test_complete_runs_are_kept_on_request_and_their_size_is_told(tmp_path):
 def test_the_power_balance_is_left_out_of_rows_only(study):
     result, run = sweep(study), simulate(Draws(study).scenario(Draws(study).member(1), 0))
     assert set(run.metrics) - set(result.metrics) <= {"energy_balance_residual", "grid_loss"}
+
+
+@pytest.mark.slow
+def test_the_grid_of_the_preset_is_fine_enough():
+    """What the comment in paper-robustness.toml says of half the grid, on a few of its draws."""
+    draws = Draws(load_study("paper-robustness"))
+    for number in (83, 415, 830):
+        coarse = draws.scenario(draws.member(number), 1)
+        half, whole = (measure(s).metrics for s in (coarse, coarse.replace({"grid.elements": 64})))
+        assert coarse.grid.elements == 32
+        for name, change in (("tip_peak", 1e-3), ("mid_peak", 3e-2), ("tip_rms", 1e-3), ("mid_rms", 1e-3)):
+            assert half[name] == pytest.approx(whole[name], rel=change), name
