@@ -9,6 +9,7 @@ from scipy import stats
 from tests.support.studies import small_study
 from umbilical.studies.designs import child_seed, points, size
 from umbilical.studies.distributions import Choice, Grid, LogUniform, Normal, Uniform, draw
+from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 
 SHARES = np.linspace(0.001, 0.999, 999)
@@ -97,3 +98,14 @@ def test_every_kind_of_fault_can_be_drawn(kind):
     draws = Draws(small_study(campaigns__1__kinds=[kind], **extra))
     faults = draws.scenario(draws.member(1), 0).faults
     assert [fault.kind for fault in faults] == ([] if kind == "none" else [kind])
+
+
+def test_what_is_set_of_the_scenario_is_the_last_word_on_it():
+    study = load_study("paper-robustness")
+    assert study.changes["grid.elements"] == 32
+    coarse, kept = study.replace({"scenario.grid.elements": 8}), study.replace({"scenario.duration": 1.0})
+    grids = [Draws(s).scenario(Draws(s).member(1), 0).grid.elements for s in (coarse, kept)]
+    assert grids == [8, 32]
+    assert load_study("paper-robustness", {"scenario.grid.elements": 8}) == coarse
+    both = study.replace({"scenario.grid.elements": 8, "changes": {"grid.elements": 16}})
+    assert Draws(both).scenario(Draws(both).member(1), 0).grid.elements == 16

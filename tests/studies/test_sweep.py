@@ -158,7 +158,7 @@ def test_xarray_alone_reads_the_result(tmp_path, study):
 
 
 def test_complete_runs_are_kept_on_request_and_their_size_is_told(tmp_path):
-    all_of_them = small_study(members=3, trajectories={"keep": "all"})
+    all_of_them = small_study(members=3, trajectories={"keep": "all"}, changes={"grid.elements": 32})
     sweep(all_of_them, tmp_path / "all")
     stored = sorted((tmp_path / "all" / "runs").iterdir())
     assert len(stored) == 6

@@ -38,7 +38,25 @@ def load_study(source: str | os.PathLike[str], overrides: Mapping[str, Any] | No
     origin = os.fspath(source)
     data = read(_text(origin), origin)
     data["scenario"] = _scenario_data(data.get("scenario"), Path(origin).parent, origin)
-    changed, lost = try_override(data, overrides or {})
+    return override_study(data, overrides or {}, origin)
+
+
+def override_study(data: Mapping[str, Any], overrides: Mapping[str, Any], origin: str) -> Study:
+    """Study of plain data with some values changed, by dotted keys.
+
+    What is said of the scenario here is the last word on it: the study's own ``changes`` of the same keys go.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    said = tuple(key.removeprefix("scenario.") for key in overrides if key.startswith("scenario."))
+    own = data.get("changes")
+    if said and isinstance(own, Mapping):
+        data = {
+            **data,
+            "changes": {key: own[key] for key in own if not f"{key}.".startswith(tuple(f"{k}." for k in said))},
+        }
+    changed, lost = try_override(data, overrides)
     return admit_study(changed, origin, lost)
 
 

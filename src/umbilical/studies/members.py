@@ -108,6 +108,10 @@ class Draws:
         changes = self.changes(self.values(member)) | {"name": name, "seed": child_seed(study.seed, member.number)}
         return validate(override(self._arms[arm], changes, name), name)
 
+    def undrawn(self) -> Iterator[Scenario]:
+        """The scenario of each arm before anything is drawn."""
+        return (validate(data, self.study.name) for data in self._arms)
+
     def changes(self, values: Mapping[str, Drawn]) -> dict[str, Any]:
         """What a draw changes in the scenario, by dotted key."""
         changes: dict[str, Any] = {}

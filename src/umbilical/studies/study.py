@@ -126,12 +126,11 @@ class Study(Record):
         return tomlkit.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any]) -> Study:
-        """The same study with some values changed, by dotted keys.
+        """The same study with some values changed, by dotted keys; ``scenario.`` leads into its scenario.
 
         Raises:
             ScenarioError: with every problem.
         """
-        from umbilical.scenario.document import override
-        from umbilical.studies.load import admit_study
+        from umbilical.studies.load import override_study
 
-        return admit_study(override(self.to_dict(), changes, self.name), self.name)
+        return override_study(self.to_dict(), changes, self.name)

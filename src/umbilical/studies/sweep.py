@@ -104,12 +104,12 @@ def run_name(member: int, arm: int) -> str:
 
 
 def disk_needed(draws: Draws) -> int:
-    """Bytes that the complete runs of a study will take: one of them, measured, times their number."""
-    keep, arms = draws.study.trajectories, len(draws.study.arms)
+    """Bytes that the complete runs of a study will take: one of each arm, measured, times their number."""
+    keep = draws.study.trajectories
     if keep.keep == "none":
         return 0
-    count = (min(keep.count, len(draws)) if keep.keep == "worst" else len(draws)) * arms
-    return count * len(to_netcdf(simulate(draws.study.scenario).data))
+    count = min(keep.count, len(draws)) if keep.keep == "worst" else len(draws)
+    return count * sum(len(to_netcdf(simulate(scenario).data)) for scenario in draws.undrawn())
 
 
 def _check_room(folder: Path, draws: Draws) -> None:
