@@ -5,6 +5,7 @@ Every case of the verification stands in the table, so none of them is a test th
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fnmatch import fnmatch
 
 import pytest
@@ -13,6 +14,7 @@ from tests.support import broken
 from tests.support.broken import Break, another_scenario
 from umbilical.verify import FAMILIES
 from umbilical.verify.cases import Case, worst_ratio
+from umbilical.verify.manufactured import TERMS_OFF, terms_off
 
 MARGIN = 10.0
 CASES = {case.name: case for cases in FAMILIES.values() for case in cases}
@@ -73,6 +75,14 @@ PAIRS = [
 ]
 
 
+@pytest.fixture(autouse=True)
+def nothing_is_remembered() -> Iterator[None]:
+    """What the engine keeps of winches and signals is of the right model before, and of a wrong one after."""
+    broken.forget()
+    yield
+    broken.forget()
+
+
 @pytest.mark.parametrize(("breaking", "case"), PAIRS)
 def test_it_is_noticed(breaking: Break, case: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     breaking(monkeypatch)
@@ -80,6 +90,28 @@ def test_it_is_noticed(breaking: Break, case: Case, monkeypatch: pytest.MonkeyPa
     if result.skipped:
         pytest.skip(result.skipped)
     assert worst_ratio(result.checks) > MARGIN
+
+
+TERMS: dict[str, tuple[Break, set[str]]] = {
+    "nothing": (broken.nothing, set(TERMS_OFF)),
+    "the winch's speed": (broken.wrong_sign_of_the_winch_speed, {"winch stopped"}),
+    "the winch's acceleration": (broken.dropped_acceleration, {"winch stopped", "winch at a steady speed"}),
+    "the vessel's motion": (another_scenario(broken.twice_the_vessels_motion), {"vessel still"}),
+    "the cable's damping": (another_scenario(broken.twice("cable.damping")), {"cable undamped"}),
+    "the ROV's damping": (another_scenario(broken.twice("payload.damping")), {"ROV undamped"}),
+    "the cable's weight": (another_scenario(broken.twice("cable.wet_line_density")), {"cable without weight"}),
+}
+"""What is wrong, and the rows of the manufactured solution, term by term, that do not notice."""
+
+
+@pytest.mark.parametrize(("breaking", "unmoved"), TERMS.values(), ids=TERMS)
+def test_terms_off_one_at_a_time_tell_which_is_wrong(
+    breaking: Break, unmoved: set[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    breaking(monkeypatch)
+    checks = list(terms_off())
+    assert {check.quantity.partition(": ")[2] for check in checks if check.holds} == unmoved
+    assert all(check.holds or check.error > MARGIN * check.tolerance for check in checks)
 
 
 def test_every_case_can_fail() -> None:

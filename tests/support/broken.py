@@ -10,11 +10,13 @@ import pytest
 
 from tests.support.scenarios import sine
 from umbilical import Scenario
+from umbilical.admission import motion
 from umbilical.control.allocation import adaptive
 from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
-from umbilical.plant import faults, signals, winch
+from umbilical.plant import exogenous, faults, signals, winch
+from umbilical.scenario.document import look_up
 from umbilical.verify import ours
 
 Break = Callable[[pytest.MonkeyPatch], None]
@@ -38,6 +40,26 @@ def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
         "cable.wet_line_density": 0.5 * scenario.cable.hanging_density,
         "environment.gravity": 2.0 * scenario.environment.gravity,
     }
+
+
+def forget() -> None:
+    """Drop what the engine keeps from run to run: it depends on the functions that are broken here."""
+    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_winch):
+        kept.cache_clear()
+
+
+def nothing(patch: pytest.MonkeyPatch) -> None:
+    """The model as it is."""
+
+
+def twice(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
+    """A number of the scenario."""
+    return lambda scenario: {key: 2.0 * look_up(scenario.to_dict(), key)}
+
+
+def twice_the_vessels_motion(scenario: Scenario) -> Mapping[str, Any]:
+    motion = scenario.to_dict()["environment"]["vessel_motion"]
+    return {"environment.vessel_motion": [*motion, *motion]}
 
 
 def twice_the_damping(scenario: Scenario) -> Mapping[str, Any]:

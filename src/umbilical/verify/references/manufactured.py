@@ -18,25 +18,6 @@ Array = np.ndarray
 WAVENUMBER = 2.3 * np.pi
 
 
-class Problem(NamedTuple):
-    """Cable and ROV, and ``l = l0 + s (1 - cos w t)``, which grows or shrinks with the sign of s until pi/w."""
-
-    swing: float
-    line_density: float = 2.0
-    mass: float = 50.0
-    gravity: float = 10.0
-    damping: float = 0.3
-    tip_damping: float = 5.0
-    start_length: float = 60.0
-    frequency: float = 1.0
-
-    def winch(self, t: Array) -> tuple[Array, Array, Array]:
-        """Length, speed, acceleration."""
-        w, s = self.frequency, self.swing
-        length = self.start_length + s * (1.0 - np.cos(w * t))
-        return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
-
-
 class Histories(NamedTuple):
     """A history with its two time derivatives."""
 
@@ -45,27 +26,65 @@ class Histories(NamedTuple):
     second: Array
 
 
-def sine_part(t: Array) -> Histories:
-    """p(t) = 1 + cos(2 t)/3."""
-    return Histories(1.0 + np.cos(2.0 * t) / 3.0, -2.0 / 3.0 * np.sin(2.0 * t), -4.0 / 3.0 * np.cos(2.0 * t))
+class Problem(NamedTuple):
+    """Cable and ROV, and ``l = l0 + s (1 - cos w t)``, which grows or shrinks with the sign of s until pi/w.
+
+    With ``steady`` the winch turns at the constant speed s w instead, which leaves at rest only a cable that hangs
+    straight: p then starts from 0.
+    """
+
+    swing: float
+    line_density: float = 2.0
+    hanging_density: float = 2.0
+    mass: float = 50.0
+    gravity: float = 10.0
+    damping: float = 0.3
+    tip_damping: float = 5.0
+    start_length: float = 60.0
+    frequency: float = 1.0
+    vessel: float = 0.25
+    steady: bool = False
+
+    @property
+    def speed(self) -> float:
+        """Largest winch speed, m/s."""
+        return self.swing * self.frequency
+
+    @property
+    def start(self) -> float:
+        """p(0), m."""
+        return 0.0 if self.steady else 4.0 / 3.0
+
+    def winch(self, t: Array) -> tuple[Array, Array, Array]:
+        """Length, speed, acceleration."""
+        if self.steady:
+            return self.start_length + self.speed * t, self.speed + 0.0 * t, 0.0 * t
+        w, s = self.frequency, self.swing
+        length = self.start_length + s * (1.0 - np.cos(w * t))
+        return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
+
+    def sine_part(self, t: Array) -> Histories:
+        """p(t) = p(0) - (1 - cos(2 t))/3."""
+        value = self.start - (1.0 - np.cos(2.0 * t)) / 3.0
+        return Histories(value, -2.0 / 3.0 * np.sin(2.0 * t), -4.0 / 3.0 * np.cos(2.0 * t))
+
+    def cosine_part(self, t: Array) -> Histories:
+        """q(t) = q0 (1 - cos(1.3 t)): also the vessel's motion."""
+        w, q0 = 1.3, self.vessel
+        return Histories(q0 * (1.0 - np.cos(w * t)), q0 * w * np.sin(w * t), q0 * w * w * np.cos(w * t))
 
 
-def cosine_part(t: Array) -> Histories:
-    """q(t) = (1 - cos(1.3 t))/4: also the vessel's motion."""
-    w = 1.3
-    return Histories((1.0 - np.cos(w * t)) / 4.0, w * np.sin(w * t) / 4.0, w * w * np.cos(w * t) / 4.0)
-
-
-def displacement(sigma: Array, t: Array | float) -> Array:
+def displacement(problem: Problem, sigma: Array, t: Array | float) -> Array:
     """y, m."""
-    angle = WAVENUMBER * sigma
-    return sine_part(np.asarray(t)).value * np.sin(angle) + cosine_part(np.asarray(t)).value * np.cos(angle)
+    angle, now = WAVENUMBER * sigma, np.asarray(t)
+    return problem.sine_part(now).value * np.sin(angle) + problem.cosine_part(now).value * np.cos(angle)
 
 
 def velocity(problem: Problem, sigma: Array, t: Array | float) -> Array:
     """Dy/Dt, m/s."""
-    p, q = sine_part(np.asarray(t)), cosine_part(np.asarray(t))
-    length, speed, _ = problem.winch(np.asarray(t))
+    now = np.asarray(t)
+    p, q = problem.sine_part(now), problem.cosine_part(now)
+    length, speed, _ = problem.winch(now)
     angle, slide = WAVENUMBER * sigma, WAVENUMBER * speed / length * (1.0 - sigma)
     return (p.first - slide * q.value) * np.sin(angle) + (q.first + slide * p.value) * np.cos(angle)
 
@@ -79,12 +98,12 @@ def profiles(sigma: Array) -> Array:
 
 def load(problem: Problem, t: Array) -> Array:
     """Histories of the six profiles in f, N/m, shape (6, t)."""
-    k, rho, c = WAVENUMBER, problem.line_density, problem.damping
+    k, rho, hanging, c = WAVENUMBER, problem.line_density, problem.hanging_density, problem.damping
     length, speed, acceleration = problem.winch(t)
     net = problem.gravity - acceleration
     b = speed / length
     db = acceleration / length - b * b
-    p, q = sine_part(t), cosine_part(t)
+    p, q = problem.sine_part(t), problem.cosine_part(t)
     rows = []
     # D2/Dt2 (g S) = g'' S + (2 g' b + g b') A S' + g b^2 (A^2 S'' - A S'), and S' of a sine is k times a cosine.
     for g, h, sign in ((p, q, -1.0), (q, p, 1.0)):
@@ -93,11 +112,11 @@ def load(problem: Problem, t: Array) -> Array:
             sign * k * (2.0 * h.first * b + h.value * db - h.value * b * b),
             -k * k * g.value * b * b,
         )
-        # (T y_x)_x = (g - a)/l^2 [(m + rho l A) g S'' - rho l g S'].
+        # (T y_x)_x = (g - a)/l^2 [(m + rho_h l A) g S'' - rho_h l g S'].
         slope = sign * k * h.value
         pull = (
-            net / length**2 * (-problem.mass * k * k * g.value - rho * length * slope),
-            -net / length * rho * k * k * g.value,
+            net / length**2 * (-problem.mass * k * k * g.value - hanging * length * slope),
+            -net / length * hanging * k * k * g.value,
             0.0 * t,
         )
         drag = (g.first, sign * k * b * h.value, 0.0 * t)
@@ -107,7 +126,7 @@ def load(problem: Problem, t: Array) -> Array:
 
 def force(problem: Problem, t: Array) -> Array:
     """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
-    p, q = sine_part(t), cosine_part(t)
+    p, q = problem.sine_part(t), problem.cosine_part(t)
     length, _, acceleration = problem.winch(t)
     s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
     slope = WAVENUMBER / length * (p.value * c - q.value * s)
@@ -122,8 +141,8 @@ def wave_amplitude(problem: Problem, t: float) -> float:
     """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum."""
     sigma = np.linspace(0.0, 1.0, 201)
     length, _, acceleration = problem.winch(np.asarray(t))
-    tension = (problem.mass + problem.line_density * length * (1.0 - sigma)) * (problem.gravity - acceleration)
-    slope = np.gradient(displacement(sigma, t), sigma) / length
+    tension = (problem.mass + problem.hanging_density * length * (1.0 - sigma)) * (problem.gravity - acceleration)
+    slope = np.gradient(displacement(problem, sigma, t), sigma) / length
     running = np.sqrt(tension / problem.line_density) * slope
     w = velocity(problem, sigma, t)
     return float(max(np.abs(w + running).max(), np.abs(w - running).max()))
