@@ -31,7 +31,10 @@ def test_ratios_are_taken_to_the_numbers_of_the_presets() -> None:
     adaptive = load("paper-dead-adaptive").to_dict()
     assert tuple(motor["thrust_coefficient"] for motor in adaptive["motors"]) == FACTORS
     assert tuple(adaptive["control"]["allocation"]["rates"]) == PRESET_RATES
-    points = {point for one in SLICES for place, point in one.points() if place[-2:] == (one.y.paper, one.x.paper)}
+    at_presets = [
+        (place, point) for one in SLICES for place, point in one.points() if place[-2:] == (one.y.paper, one.x.paper)
+    ]
+    points = {point for place, point in at_presets if place[2] in ARMS}
     for point in _observed(points):
         assert _values(load(point.preset, dict(point.changes))) == _values(load(point.preset))
 
@@ -51,7 +54,7 @@ def _observed(points: set[Point]) -> list[Point]:
 def test_equal_runs_are_made_once() -> None:
     """Fault control knows no factors, and without it nothing adapts."""
     counts = {one.name: len({point for _, point in one.points()}) for one in SLICES}
-    assert counts == {"map-time": 900, "map-factors": 2 * (225 + 15), "map-rates": 2 * (225 + 1)}
+    assert counts == {"map-time": 900, "map-factors": 2 * (225 + 15), "map-rates": 2 * (225 + 1 + 13 * 15)}
 
 
 def test_fault_control_knows_no_factors() -> None:

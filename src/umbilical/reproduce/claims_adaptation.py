@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from umbilical.reproduce.experiments import BOX, OBSERVERS
 from umbilical.reproduce.ledger import (
     UNMAPPED,
     Evidence,
@@ -14,7 +13,8 @@ from umbilical.reproduce.ledger import (
     percent,
     short,
 )
-from umbilical.reproduce.regions import runaways
+from umbilical.reproduce.regions import diverged, runaways
+from umbilical.reproduce.slices import BOXED
 from umbilical.run import Run, Status
 
 HELPS = 0.5
@@ -66,10 +66,10 @@ def a1(evidence: Evidence) -> Finding:
     )
 
 
-def _better(evidence: Evidence, observer: str) -> float:
-    """Share of the cells of map-time in which fault control lowers the peak."""
-    peaks = evidence.maps["map-time"]["peak"].sel(observer=observer)
-    return float((peaks.sel(arm="with") < peaks.sel(arm="without")).mean())
+def _better(evidence: Evidence, observer: str, name: str = "map-time", arm: str = "with") -> float:
+    """Share of the cells of a map in which an arm has the lower peak than known factors."""
+    peaks = evidence.maps[name]["peak"].sel(observer=observer)
+    return float((peaks.sel(arm=arm) < peaks.sel(arm="without")).mean())
 
 
 def a2(evidence: Evidence) -> Finding:
@@ -120,8 +120,10 @@ def a3(evidence: Evidence) -> Finding:
     boxed = [runs["blind, dead, boxed"], runs["blind, none, boxed, long"]]
     bare = [runs["blind, dead, fast"], runs["blind, none, with, long"]]
     saved = [b.status is Status.COMPLETED and a.status is Status.DIVERGED for a, b in zip(bare, boxed, strict=True)]
-    upper = boxed[0].scenario.control.allocation
-    limit = float(np.max(getattr(upper, "upper", None) or (np.nan,), initial=-np.inf, where=[True, False, False]))
+    limit = BOX["control.allocation.upper"][0]
+    numbers, region = [], UNMAPPED
+    if evidence.maps:
+        numbers, region = _boxed_map(evidence)
     return Finding(
         "A3",
         "Ours: a box for kappa ends the ratchet.",
@@ -129,11 +131,38 @@ def a3(evidence: Evidence) -> Finding:
         (
             Number("dead_peak", boxed[0].metrics["tip_peak"], "m", "peak, dead, ten times the rates, boxed"),
             Number("long_peak", boxed[1].metrics["tip_peak"], "m", "peak, no fault, 400 s, boxed"),
+            *numbers,
         ),
         decide(all(saved), any(saved)),
         f"{saved.count(True)} of 2 come to their end that did not; the peaks are "
-        f"{short(boxed[0].metrics['tip_peak'])} and "
-        f"{short(boxed[1].metrics['tip_peak'])} m.",
-        "The box must lie below the gain at which the loop runs away (C7a); it stops the ratchet and does not make the "
-        "adaptation find the exact value.",
+        f"{short(boxed[0].metrics['tip_peak'])} and {short(boxed[1].metrics['tip_peak'])} m. The box must lie below "
+        "the gain at which the loop runs away (C7a); it stops the ratchet and does not make the adaptation find the "
+        "exact value.",
+        region,
+    )
+
+
+def _boxed_map(evidence: Evidence) -> tuple[list[Number], str]:
+    """What the box changes over start and rate of the adaptation (map-rates)."""
+    arms = {"bare": "with", "boxed": BOXED}
+    lost = {name: diverged(evidence.maps["map-rates"], arm) for name, arm in arms.items()}
+    cells = lost["bare"][1]
+    better = {
+        f"{name}_{obs}": _better(evidence, obs, "map-rates", arm) for name, arm in arms.items() for obs in OBSERVERS
+    }
+    numbers = [
+        *(
+            Number(f"diverged_{name}", count, "1", f"cells of map-rates that diverged, {name}, of {cells}", Kind.COUNT)
+            for name, (count, _) in lost.items()
+        ),
+        *(
+            Number(f"better_{name}", share, "1", f"share of map-rates better than known factors, {name}", Kind.SHARE)
+            for name, share in better.items()
+        ),
+    ]
+    return numbers, (
+        f"Over start and rate (map-rates), {lost['boxed'][0]} of {cells} runs diverge in the box and {lost['bare'][0]} "
+        f"without it; the box is better than known factors in {percent(better['boxed_on'])} of the cells with the "
+        f"disturbance observer ({percent(better['bare_on'])} without the box) and in "
+        f"{percent(better['boxed_off'])} ({percent(better['bare_off'])}) without the observer."
     )

@@ -24,7 +24,7 @@ OBSERVER = "control.disturbance_observer.enabled"
 RATES = "control.allocation.rates"
 START = "control.allocation.initial"
 BELIEVED = "control.nominal.thrust_coefficients"
-BOX = {"control.allocation.lower": [0.0, -1000.0, -1000.0], "control.allocation.upper": [1.5, 1000.0, 1000.0]}
+BOX = {"control.allocation.lower": (0.0, -1000.0, -1000.0), "control.allocation.upper": (1.5, 1000.0, 1000.0)}
 """Projection: kappa_0 from 0 to three times its exact value, the offsets to a thousand rad2/s2."""
 BLIND = {OBSERVER: False}
 FAST = {RATES: [1.0, 1000.0, 1000.0]}

@@ -9,13 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, RATES, START, preset
+from umbilical.reproduce.experiments import ARMS, BELIEVED, BOX, OBSERVERS, RATES, START, preset
 from umbilical.reproduce.points import FACTORS, Changes, Outcome, Point, gain_point, make_point, run_points
 from umbilical.reproduce.work import Progress
 
 if TYPE_CHECKING:
     import xarray
 
+BOXED = "with, in a box"
+RIM = BOX["control.allocation.upper"][0]
 PRESET_RATES = (0.1, 100.0, 100.0)
 Place = tuple[str | float, ...]
 
@@ -46,10 +48,11 @@ class Slice:
     x: Axis
     y: Axis
     setting: Callable[[str, float, float], tuple[str, Changes]]
+    arms: tuple[str, ...] = ARMS
 
     def points(self) -> Iterator[tuple[Place, Point]]:
         """Every place (observer, arm, y, x) with its run."""
-        for observer, arm, y, x in product(OBSERVERS, ARMS, self.y.values, self.x.values):
+        for observer, arm, y, x in product(OBSERVERS, self.arms, self.y.values, self.x.values):
             name, changes = self.setting(arm, x, y)
             yield (self.name, observer, arm, y, x), make_point(name, observer, changes)
 
@@ -73,9 +76,12 @@ def _stuck(arm: str, ratio: float, value: float) -> tuple[str, Changes]:
 
 
 def _adapting(arm: str, factor: float, start: float) -> tuple[str, Changes]:
-    """Without fault control nothing adapts: one run serves the whole map."""
-    changes = {RATES: tuple(k * factor for k in PRESET_RATES), START: (start, 0.0, 0.0)}
-    return preset("dead", arm), changes if arm == "with" else {}
+    """Without fault control nothing adapts: one run serves the whole map. A start above the box is put on its rim."""
+    if arm == "without":
+        return preset("dead", arm), {}
+    boxed = arm == BOXED
+    changes = {RATES: tuple(k * factor for k in PRESET_RATES), START: (min(start, RIM) if boxed else start, 0.0, 0.0)}
+    return preset("dead", "with"), changes | (BOX if boxed else {})
 
 
 SLICES = (
@@ -99,6 +105,7 @@ SLICES = (
         Axis("rate_ratio", "rates / those of the preset", _powers(1.0, 10.0 ** (1 / 3), 6), 1.0, scale="log"),
         Axis("kappa_start", r"$\kappa_0(0)$", _powers(0.25, 2.0**0.5, 6), 0.25, "rad2/(N s2)", scale="log"),
         _adapting,
+        (*ARMS, BOXED),
     ),
 )
 
@@ -124,7 +131,7 @@ def _map(one: Slice, outcomes: Mapping[Place, Outcome]) -> xarray.Dataset:
     coordinates = {axis.name: axis.coordinate() for axis in (one.y, one.x)}
     attributes = {"title": one.title, "x": one.x.name, "y": one.y.name, "paper_x": one.x.paper, "paper_y": one.y.paper}
     return xarray.Dataset(
-        *_table(cells, {"observer": list(OBSERVERS), "arm": list(ARMS), **coordinates}), attrs=attributes
+        *_table(cells, {"observer": list(OBSERVERS), "arm": list(one.arms), **coordinates}), attrs=attributes
     )
 
 

@@ -1,4 +1,4 @@
-"""Maps: the peak of the ROV after a fault over two numbers, without and with fault control."""
+"""Maps: the peak of the ROV after a fault over two numbers, without fault control, with it, and with it in a box."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ LOST = "#404040"
 def draw_map(data: xarray.Dataset) -> Figure:
     """``peak`` over ``observer``, ``arm``, and the two dimensions named in ``data.attrs``.
 
-    Dark cells diverged; dots on the right mark where fault control lowers the peak; the cross is the preset.
+    Dark cells diverged; dots mark where fault control lowers the peak; the cross is the preset.
     """
     observers, arms = data["observer"].values, data["arm"].values
     figure, panels = column(len(observers), 1.6, len(arms))
@@ -41,7 +41,8 @@ def _row(figure: Figure, panels: list[Axes], data: xarray.Dataset, observer: str
     peaks = data["peak"].sel(observer=observer)
     norm = LogNorm(vmin=float(np.nanmin(peaks)), vmax=float(np.nanmax(peaks)))
     pictures = [_cells(ax, peaks.sel(arm=arm), data, norm) for ax, arm in zip(panels, data["arm"].values, strict=True)]
-    _better(panels[-1], peaks, data)
+    for ax, arm in zip(panels, data["arm"].values, strict=True):
+        _better(ax, peaks.sel(arm=arm), peaks.sel(arm="without"), data)
     bar = figure.colorbar(pictures[0], ax=panels, pad=0.02)
     bar.set_label(f"observer {observer}: {unit_label(data['peak'])}", fontsize=TYPE)
     bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
@@ -58,18 +59,18 @@ def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNor
     picture = ax.pcolormesh(data[x], data[y], values, **look)
     ax.set_xscale(data[x].attrs["scale"])
     ax.set_yscale(data[y].attrs["scale"])
-    for axis, name in ((ax.xaxis, x), (ax.yaxis, y)):
+    for axis, name, ticks in ((ax.xaxis, x, 12 // data.sizes["arm"]), (ax.yaxis, y, 6)):
         if data[name].attrs["scale"] == "log":
-            log_axis(axis)
+            log_axis(axis, ticks)
     ax.plot(data.attrs["paper_x"], data.attrs["paper_y"], "+", color="white", markersize=5, markeredgewidth=1.0)
     return picture
 
 
-def _better(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset) -> None:
-    """Dots where fault control is the better one."""
+def _better(ax: Axes, peaks: xarray.DataArray, without: xarray.DataArray, data: xarray.Dataset) -> None:
+    """Dots where an arm is better than the one without fault control."""
     x, y = data.attrs["x"], data.attrs["y"]
-    without, with_control = (peaks.sel(arm=arm).transpose(y, x).values for arm in ("without", "with"))
-    better = (with_control < without) | (np.isnan(without) & ~np.isnan(with_control))
+    own, other = (values.transpose(y, x).values for values in (peaks, without))
+    better = (own < other) | (np.isnan(other) & ~np.isnan(own))
     rows, columns = np.nonzero(better)
     ax.plot(data[x].values[columns], data[y].values[rows], ".", color="white", markersize=1.2)
 

@@ -128,8 +128,8 @@ def unit_label(array: xarray.DataArray) -> str:
     return axis_label(array)
 
 
-def log_axis(axis: Axis) -> None:
-    """A logarithmic axis with few ticks: plain 1, 2 and 5 over less than two decades, else powers of ten."""
+def log_axis(axis: Axis, ticks: int = 6) -> None:
+    """A logarithmic axis with at most some ticks: plain 1, 2 and 5 over less than two decades, else powers of ten."""
     from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullLocator
 
     low, high = sorted(axis.get_view_interval())
@@ -138,5 +138,5 @@ def log_axis(axis: Axis) -> None:
         axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axis.set_major_formatter("{x:g}")
     else:
-        axis.set_major_locator(LogLocator(numticks=6))
+        axis.set_major_locator(LogLocator(numticks=ticks))
         axis.set_major_formatter(LogFormatterSciNotation())

@@ -1,0 +1,67 @@
+"""One line of a kernel changed in a copy of the package, compiled anew: the verification notices, by ten times.
+
+What the broken models cannot reach lies inside the compiled loop; here it is edited where it stands.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import umbilical
+
+MARGIN = 10.0
+
+
+class Edit(NamedTuple):
+    """A line of a file of the package, what it is changed to, and the cases that must notice."""
+
+    file: str
+    line: str
+    wrong: str
+    cases: tuple[str, ...]
+
+
+EDITS = {
+    "transport in the flux between elements": Edit(
+        "plant/cable.py",
+        "flow[f] = velocity - transport * slope",
+        "flow[f] = velocity + transport * slope",
+        ("moving end, paying out at 5 m/s", "moving end, hauling in at 4 m/s"),
+    ),
+}
+
+JUDGE = """
+import sys
+from umbilical.verify import FAMILIES
+from umbilical.verify.cases import worst_ratio
+cases = {case.name: case for cases in FAMILIES.values() for case in cases}
+for name in sys.argv[1:]:
+    print(worst_ratio(cases[name].judge().checks))
+"""
+
+
+def worst_ratios(folder: Path, cases: tuple[str, ...]) -> list[float]:
+    """Largest error over tolerance of each case, by the package in a folder."""
+    places = {"PYTHONPATH": str(folder), "UMBILICAL_CACHE": str(folder / "cache")}
+    command = [sys.executable, "-c", JUDGE, *cases]
+    answer = subprocess.run(command, env={**os.environ, **places}, capture_output=True, text=True, check=True)
+    return [float(line) for line in answer.stdout.splitlines()]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("edit", EDITS.values(), ids=EDITS)
+def test_it_is_noticed(edit: Edit, tmp_path: Path) -> None:
+    package = Path(umbilical.__file__).parent
+    shutil.copytree(package, tmp_path / package.name, ignore=shutil.ignore_patterns("__pycache__"))
+    file = tmp_path / package.name / edit.file
+    text = file.read_text(encoding="utf-8")
+    assert text.count(edit.line) == 1
+    file.write_text(text.replace(edit.line, edit.wrong), encoding="utf-8")
+    assert min(worst_ratios(tmp_path, edit.cases)) > MARGIN
