@@ -14,7 +14,7 @@ from umbilical.cli.progress import bar
 from umbilical.plots import plot_convergence, save_figure
 from umbilical.verify import Verification, verify_all
 from umbilical.verify.cases import Check, Result, worst_ratio
-from umbilical.verify.page import rounded
+from umbilical.verify.page import numbers
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 TEXT = Path(__file__).with_suffix(".md")
@@ -47,13 +47,13 @@ def row(result: Result) -> tuple[str, ...]:
         return result.case.name, against, f"**skipped**: {result.skipped}", "", "", "", ""
     check = max(result.checks, key=nearness)
     verdict = "" if result.holds else " **FAILS**"
-    shown = (f"{check.ours:.6g}", f"{check.expected:.6g}", rounded(check.error) + verdict)
-    return result.case.name, against, check.quantity, *shown, f"{check.tolerance:.0e}: {check.why}"
+    ours, expected, error, tolerance = numbers(check)
+    return result.case.name, against, check.quantity, ours, expected, error + verdict, f"{tolerance}: {check.why}"
 
 
 def nearness(check: Check) -> float:
-    """Error over tolerance; a check that tolerates nothing comes last, unless it fails."""
-    return worst_ratio([check]) if check.tolerance or not check.holds else 0.0
+    """Error over tolerance."""
+    return worst_ratio([check])
 
 
 def main() -> int:

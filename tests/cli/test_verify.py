@@ -68,7 +68,7 @@ def test_a_case_that_lacks_a_package_is_skipped_and_says_so(umbilical, monkeypat
     done = umbilical("verify")
     assert done.code == 0
     assert "skipped: needs no_such_package" in done.out
-    assert "1 cases skipped" in done.out
+    assert "1 case skipped" in done.out
 
 
 def test_quick_leaves_out_what_takes_long(umbilical, monkeypatch):
@@ -79,17 +79,21 @@ def test_quick_leaves_out_what_takes_long(umbilical, monkeypatch):
 
 
 def test_files_appear_where_they_were_asked_for(umbilical, few, tmp_path):
-    done = umbilical("verify", "--out", str(tmp_path))
+    done = umbilical("verify", "--out", str(tmp_path / "new" / "evidence"))
     assert done.code == 0
+    tmp_path = tmp_path / "new" / "evidence"
     assert "**motor, step from rest**" in (tmp_path / "verification.md").read_text()
     assert json.loads((tmp_path / "verification.json").read_text())["holds"] is True
     assert (tmp_path / "convergence.svg").read_text().startswith("<?xml")
     again = umbilical("verify", "--out", str(tmp_path))
     assert again.code == 4
-    assert "exists already" in again.err
+    assert "verification.md, verification.json, convergence.svg already" in again.err
     assert umbilical("verify", "--out", str(tmp_path), "--force").code == 0
 
 
-def test_a_folder_that_is_not_there_is_refused_before_the_work(umbilical, monkeypatch):
+def test_a_folder_that_cannot_be_made_is_refused_before_the_work(umbilical, monkeypatch, tmp_path):
     monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Moving": moving_end.CASES})
-    assert umbilical("verify", "--out", "no-folder").code == 4
+    (tmp_path / "file").write_text("")
+    done = umbilical("verify", "--out", str(tmp_path / "file" / "evidence"))
+    assert done.code == 4
+    assert "cannot be made" in done.err

@@ -13,7 +13,7 @@ import pytest
 from tests.support import broken
 from tests.support.broken import Break, another_scenario
 from umbilical.verify import FAMILIES
-from umbilical.verify.cases import Case, worst_ratio
+from umbilical.verify.cases import UNFINISHED, Case, worst_ratio
 from umbilical.verify.manufactured import TERMS_OFF, terms_off
 
 MARGIN = 10.0
@@ -90,6 +90,7 @@ def test_it_is_noticed(breaking: Break, case: Case, monkeypatch: pytest.MonkeyPa
     if result.skipped:
         pytest.skip(result.skipped)
     assert worst_ratio(result.checks) > MARGIN
+    assert all(check.quantity != UNFINISHED for check in result.checks), "a case that breaks down has compared nothing"
 
 
 TERMS: dict[str, tuple[Break, set[str]]] = {

@@ -11,6 +11,7 @@ import pytest
 from umbilical.analysis.convergence import Curve
 from umbilical.errors import ScenarioError
 from umbilical.verify.cases import (
+    UNFINISHED,
     Case,
     CaseError,
     Check,
@@ -57,6 +58,15 @@ def test_the_worst_ratio_of_nan_is_infinite() -> None:
     assert worst_ratio([close("q", NAN, 1.0, 1e-3, "")]) == np.inf
 
 
+def test_where_nothing_is_tolerated_only_an_error_counts() -> None:
+    assert worst_ratio([small("q", 0.0, 0.0, "")]) == 0.0
+    assert worst_ratio([small("q", 1e-300, 0.0, "")]) == np.inf
+
+
+def test_histories_that_agree_to_the_last_bit_are_shown_at_their_peak() -> None:
+    assert history_close("q", [0.0, -2.0, 1.0], [0.0, -2.0, 1.0], 0.0, "").expected == -2.0
+
+
 def _raising(error: Exception) -> Case:
     def find() -> Iterator[Check]:
         yield close("before it", 1.0, 1.0, 1.0, "")
@@ -69,7 +79,10 @@ def _raising(error: Exception) -> Case:
 def test_a_case_that_cannot_be_carried_through_fails(error: Exception) -> None:
     result = _raising(error).judge()
     assert not result.holds
-    assert "could not be carried through" in result.checks[0].why
+    before, last = result.checks
+    assert before.holds, "what was found before it is kept"
+    assert last.quantity == UNFINISHED
+    assert "could not be carried through" in last.why
 
 
 def _verification(*checks: Check, skipped: str = "") -> Verification:
@@ -79,8 +92,8 @@ def _verification(*checks: Check, skipped: str = "") -> Verification:
 
 def test_the_page_shows_what_fails_and_what_was_skipped() -> None:
     failing = page(_verification(small("speed, m/s", 0.25, 0.1, "because")), "plot.svg")
-    assert "1 checks in 1 cases: 0 hold, 1 FAIL" in failing
-    assert "| speed, m/s | 0.25 | 0 | 2e-01 | 1e-01 | because | **FAILS** |" in failing
+    assert "1 check in 1 case: 0 hold, 1 FAIL" in failing
+    assert "| speed, m/s | 0.25 | 0 | 2e-01 | 0.1 | because | **FAILS** |" in failing
     assert "Skipped: needs x" in page(_verification(skipped="needs x"), "plot.svg")
     assert "![errors over grids](plot.svg)" in failing
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
-from umbilical.errors import OutputError
+from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
     from umbilical.reproduce import Reproduction
@@ -64,22 +64,6 @@ def check_names(names: list[str]) -> list[str]:
     if unknown:
         raise BadParameter(f"no figure {', '.join(unknown)}; there are {', '.join(PICTURES)}", param_hint="FIGURE")
     return names
-
-
-def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
-    """Make the folder; refuse what could not be written later.
-
-    Raises:
-        OutputError: the folder cannot be made, or holds files of these names.
-    """
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: the folder cannot be made ({error.strerror})") from error
-    there = [target.name for target in targets if target.exists()]
-    if there and not force:
-        more = f" and {len(there) - 3} more" if len(there) > 3 else ""
-        raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")
 
 
 def summary(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:

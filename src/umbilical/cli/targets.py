@@ -31,3 +31,19 @@ def check_target(path: Path, kinds: tuple[str, ...], *, force: bool) -> None:
         raise OutputError(f"{path}: this is a folder; give the name of a file in it")
     if path.exists() and not force:
         raise OutputError(f"{path}: exists already; give another name, or --force to replace it")
+
+
+def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
+    """Make the folder; refuse what could not be written later.
+
+    Raises:
+        OutputError: the folder cannot be made, or holds files of these names.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: the folder cannot be made ({error.strerror})") from error
+    there = [target.name for target in targets if target.exists()]
+    if there and not force:
+        more = f" and {len(there) - 3} more" if len(there) > 3 else ""
+        raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
 from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table
-from umbilical.cli.targets import check_target
+from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification
+    from umbilical.verify.cases import Check
 
 FILES = ("verification.md", "verification.json", "convergence.svg")
 
@@ -33,8 +34,8 @@ def verify(
       umbilical verify --out evidence
     """
     targets = [out / name for name in FILES] if out else []
-    for target in targets:
-        check_target(target, (target.suffix.removeprefix("."),), force=force)
+    if out:
+        make_room(out, targets, force=force)
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.verify import verify_all
 
@@ -53,12 +54,11 @@ def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, s
     """The files by role."""
     if not targets:
         return {}
+    from umbilical.files import write
     from umbilical.plots import plot_convergence, save_figure
     from umbilical.verify.page import data, page
 
     report, numbers, picture = targets
-    from umbilical.files import write
-
     write(report, page(found, picture.name).encode(), force=force)
     write(numbers, data(found).encode(), force=force)
     save_figure(plot_convergence(found.curves), picture, force=force)
@@ -78,13 +78,9 @@ def _text(found: Verification) -> str:
     return "\n\n".join([*parts, found.headline])
 
 
-def _row(check: Any) -> tuple[str, ...]:
-    return (
-        "holds" if check.holds else "FAILS",
-        check.quantity,
-        f"{check.ours:.8g}",
-        f"{check.expected:.8g}",
-        f"error {check.error:.1e}",
-        f"<= {check.tolerance:.0e}",
-        check.why,
-    )
+def _row(check: Check) -> tuple[str, ...]:
+    from umbilical.verify.page import numbers
+
+    ours, expected, error, tolerance = numbers(check)
+    verdict = "holds" if check.holds else "FAILS"
+    return verdict, check.quantity, ours, expected, f"error {error}", f"<= {tolerance}", check.why

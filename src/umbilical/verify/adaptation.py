@@ -11,6 +11,8 @@ from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, history_close
 
 RATES, LEAK, START, PERIOD = (0.1, 100.0, 50.0), 0.2, (0.25, 0.0, 0.5), 1e-3
+UNTIL = 0.5
+"""s: with the other sign of the law the loop would run away at 0.7 s, and nothing could be compared."""
 TOLERANCE = 1e-9
 WHY = "each step is exact for what is held: round-off; the other sign misses by 1"
 
@@ -21,7 +23,7 @@ def followed() -> Iterator[Check]:
     ``kappa' = -Gamma (theta u_a + s_k kappa)``, theta = [alpha_c, 1, 1], both held over the period that ends.
     """
     allocation = {"method": "adaptive", "rates": RATES, "leak": LEAK, "initial": START}
-    changes = {"control.allocation": allocation, "duration": 1.0, "output.interval": PERIOD, "grid.elements": 8}
+    changes = {"control.allocation": allocation, "duration": UNTIL, "output.interval": PERIOD, "grid.elements": 8}
     run = ours.completed(load("paper-adaptive", changes))
     thrust, error = run["thrust_command"].values, run["boundary_error"].values
     gamma, kappa = np.array(RATES), np.array(START)
@@ -33,7 +35,7 @@ def followed() -> Iterator[Check]:
     moved = np.array(wanted) - START
     for j in range(3):
         found = run["kappa"].values[:, j] - START[j]
-        yield history_close(f"kappa_{j} less its start, over 1 s", found, moved[:, j], TOLERANCE, WHY)
+        yield history_close(f"kappa_{j} less its start, over {UNTIL:g} s", found, moved[:, j], TOLERANCE, WHY)
 
 
 CASES = (Case("adaptive law in the loop", "(27), solved for held theta u_a", "eq. (27)", followed),)

@@ -16,6 +16,8 @@ import numpy as np
 from umbilical.analysis.convergence import Curve, orders
 from umbilical.errors import UmbilicalError
 
+UNFINISHED = "the whole case"
+"""The quantity of a check that stands for those which a case did not come to."""
 ORDER_SLACK = 0.1
 """How far below the stated order the finest pair of grids may be."""
 
@@ -77,13 +79,14 @@ class Case:
         begun = perf_counter()
         if self.needs and find_spec(self.needs) is None:
             return Result(self, (), f"needs {self.needs}", 0.0)
+        checks: list[Check] = []
         try:
-            checks = tuple(self.find())
+            checks.extend(self.find())
         except Exception as error:  # whatever it is: this case fails, and the others still have their say
             nan = float("nan")
             what = error if isinstance(error, CaseError | UmbilicalError) else repr(error)
-            checks = (Check("the whole case", nan, nan, nan, 0.0, f"could not be carried through: {what}"),)
-        return Result(self, checks, "", perf_counter() - begun)
+            checks.append(Check(UNFINISHED, nan, nan, nan, 0.0, f"could not be carried through: {what}"))
+        return Result(self, tuple(checks), "", perf_counter() - begun)
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,7 @@ def history_close(quantity: str, ours: Any, expected: Any, tolerance: float, why
     """Histories or fields; the largest distance over the peak of the expected one, shown where it is largest."""
     found, exact = np.ravel(ours), np.ravel(expected)
     off = np.abs(found - exact)
-    worst = int(np.argmax(off))
+    worst = int(np.argmax(off if off.any() else np.abs(exact)))  # nowhere apart: shown at the peak
     return Check(
         quantity, _shown(found[worst]), _shown(exact[worst]), float(off[worst] / np.abs(exact).max()), tolerance, why
     )
@@ -138,9 +141,15 @@ def order_reached(curve: Curve, why: str) -> Check:
 
 
 def worst_ratio(checks: Sequence[Check]) -> float:
-    """Largest error over its tolerance; infinite for NaN."""
-    ratios = [c.error / c.tolerance if c.tolerance else np.inf for c in checks]
-    return float(max((r if np.isfinite(r) else np.inf for r in ratios), default=0.0))
+    """Largest error over its tolerance; infinite for NaN, and for any error where none is tolerated."""
+    return max(map(_ratio, checks), default=0.0)
+
+
+def _ratio(check: Check) -> float:
+    if check.holds and not check.tolerance:
+        return 0.0
+    ratio = check.error / check.tolerance if check.tolerance else np.inf
+    return float(ratio) if np.isfinite(ratio) else np.inf
 
 
 def _shown(value: complex) -> float:

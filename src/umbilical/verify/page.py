@@ -44,16 +44,15 @@ def _table(checks: Sequence[Check]) -> str:
 
 
 def _row(check: Check) -> tuple[str, ...]:
-    """Errors with one digit: more would change from machine to machine."""
-    return (
-        check.quantity,
-        f"{check.ours:.6g}",
-        f"{check.expected:.6g}",
-        rounded(check.error),
-        f"{check.tolerance:.0e}",
-        check.why,
-        "holds" if check.holds else "**FAILS**",
-    )
+    return (check.quantity, *numbers(check), check.why, "holds" if check.holds else "**FAILS**")
+
+
+def numbers(check: Check) -> tuple[str, str, str, str]:
+    """Ours, the reference, error and tolerance as they are printed everywhere.
+
+    Errors with one digit: more would change from machine to machine.
+    """
+    return f"{check.ours:.6g}", f"{check.expected:.6g}", rounded(check.error), f"{check.tolerance:.2g}"
 
 
 def rounded(error: float) -> str:

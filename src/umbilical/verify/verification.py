@@ -74,9 +74,10 @@ class Verification:
         """How many checks there were and how many hold."""
         checks = [check for result in self.results for check in result.checks]
         failed, skipped = sum(not c.holds for c in checks), sum(bool(r.skipped) for r in self.results)
-        parts = [f"{len(checks)} checks in {len(self.results) - skipped} cases: {len(checks) - failed} hold"]
+        made = f"{_counted(len(checks), 'check')} in {_counted(len(self.results) - skipped, 'case')}"
+        parts = [f"{made}: {len(checks) - failed} hold"]
         parts += [f"{failed} FAIL"] if failed else []
-        parts += [f"{skipped} cases skipped"] if skipped else []
+        parts += [f"{_counted(skipped, 'case')} skipped"] if skipped else []
         return ", ".join(parts)
 
     def document(self) -> dict[str, Any]:
@@ -88,6 +89,10 @@ class Verification:
             for row in rows_of(result)
         ]
         return {"holds": self.holds, "headline": self.headline, "checks": rows}
+
+
+def _counted(count: int, noun: str) -> str:
+    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def verify_all(quick: bool = False, *, progress: Progress = lambda share: None) -> Verification:
@@ -106,7 +111,7 @@ def verify_all(quick: bool = False, *, progress: Progress = lambda share: None) 
     """
     chosen = {family: [case for case in cases if case.quick or not quick] for family, cases in FAMILIES.items()}
     total, done, found = sum(map(len, chosen.values())), 0, {}
-    for family, cases in chosen.items():
+    for family, cases in ((family, cases) for family, cases in chosen.items() if cases):
         results = []
         for case in cases:
             results.append(case.judge())
