@@ -43,7 +43,8 @@ def test_nothing_is_replaced_unasked_and_nothing_is_run_for_it(umbilical, tmp_pa
 
 
 def test_a_folder_that_cannot_be_made_is_said(umbilical, tmp_path) -> None:
-    outcome = umbilical("reproduce", "fig5", "--out", tmp_path / "a" / "b")
+    (tmp_path / "file").write_text("")
+    outcome = umbilical("reproduce", "fig5", "--out", tmp_path / "file" / "b")
     assert outcome.code == 4
     assert "cannot be made" in outcome.err
 
