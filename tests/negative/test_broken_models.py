@@ -25,7 +25,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
         HALF,
         ("hanging cable*", "release*", "reflection*", "moving end, fixed", "vessel in motion*", "crosscheck-none"),
     ),
-    "twice the damping": (another_scenario(broken.twice_the_damping), ("damp*", "reflection*")),
+    "twice the damping": (another_scenario(broken.twice_the_damping), ("damp*", "reflection*", "pulse back*")),
+    "a trace of damping": (another_scenario(broken.a_trace_of_damping), ("hanging cable, [lm] =*",)),
     "loads a percent too large": (broken.loads_a_percent_too_large, ("static*", "cable settles*")),
     "wrong sign of the winch speed": (
         broken.wrong_sign_of_the_winch_speed,

@@ -57,6 +57,11 @@ def twice(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
     return lambda scenario: {key: 2.0 * look_up(scenario.to_dict(), key)}
 
 
+def a_trace_of_damping(scenario: Scenario) -> Mapping[str, Any]:
+    """Too little to move a frequency."""
+    return {"cable.damping": scenario.cable.damping + 1e-3}
+
+
 def twice_the_vessels_motion(scenario: Scenario) -> Mapping[str, Any]:
     motion = scenario.to_dict()["environment"]["vessel_motion"]
     return {"environment.vessel_motion": [*motion, *motion]}

@@ -6,11 +6,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from umbilical.plant.layout import positions
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify import ours
-from umbilical.verify.cases import Case, Check, close, each_close, small
+from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
 from umbilical.verify.ours import STEADY_TENSION, UNDAMPED, open_loop
-from umbilical.verify.references.hanging_string import HangingString, frequencies, steady_tension_frequencies
+from umbilical.verify.references.hanging_string import (
+    HangingString,
+    frequencies,
+    mode_shape,
+    steady_tension_frequencies,
+)
 
 TOLERANCE = 1e-4
 WHY = "asked for; half the ROV's inertia moves them by 1e-2"
@@ -27,10 +33,14 @@ def hanging(string: HangingString, **overrides: object) -> Scenario:
 
 
 def compared(string: HangingString, **overrides: object) -> Iterator[Check]:
-    """The first six frequencies, and that nothing decays or grows by itself."""
-    found = ours.poles(hanging(string, **overrides), 6)
+    """The first six frequencies and shapes, and that nothing decays or grows by itself."""
+    scenario = hanging(string, **overrides)
+    found, shapes = ours.modes(scenario, 6)
     exact = frequencies(string, 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
+    above = string.length * (1.0 - positions(scenario.grid.elements))
+    wanted = np.array([mode_shape(string, w, above) for w in exact])
+    yield history_close("their shapes, 1 at the ROV", shapes, wanted, TOLERANCE, "four digits, as for the frequencies")
     yield small(
         "largest |decay|/w of the six", float(np.abs(np.real(found) / np.imag(found)).max()), 1e-6,
         "what the scheme takes must not show in a run",

@@ -15,15 +15,24 @@ import numpy as np
 from umbilical.run import Run
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, history_close
-from umbilical.verify.ours import STEADY_TENSION, open_loop
+from umbilical.verify.ours import STEADY_TENSION, constant, open_loop, sine
 from umbilical.verify.references.characteristics import HeldEnd, MovingEnd
 
 TOLERANCE = 1e-3
-WHY = "asked for; v of the wrong sign misses by 1"
+SMOOTH = 1e-5
+WHY_SMOOTH = "long waves only: what is left is the reference's differences"
+WHY = "asked for; v of the wrong sign misses by 1, half the ROV's inertia by 1e-1"
+
+
+PUSHED, SHAKEN = 0.5, 0.4
+"""Frequencies w, rad/s, of force and vessel: (1 - cos w t)^2 each, which starts so gently that no wave has a kink."""
 
 
 class Setting(NamedTuple):
-    """A cable of constant tension with a bump, and the law of its length."""
+    """A cable of constant tension with a bump, the law of its length, and the size of force, N, and vessel's motion, m.
+
+    Tension follows from the mass: T = m g.
+    """
 
     length: Callable[[np.ndarray], np.ndarray]
     winch: dict[str, Any]
@@ -34,10 +43,22 @@ class Setting(NamedTuple):
     center: float = 125.0
     width: float = 20.0
     until: float = 50.0
+    bump: float = 1.0
+    push: float = 0.0
+    shake: float = 0.0
 
     def start(self, s: np.ndarray) -> np.ndarray:
         """Displacement at the start, m."""
-        return np.exp(-(((s - self.center) / self.width) ** 2))
+        return self.bump * np.exp(-(((s - self.center) / self.width) ** 2))
+
+    def impulse(self, t: np.ndarray) -> np.ndarray:
+        """What the force has done until t, N s."""
+        w = PUSHED
+        return self.push * (1.5 * t - 2.0 * np.sin(w * t) / w + 0.25 * np.sin(2.0 * w * t) / w)
+
+    def vessel(self, t: np.ndarray) -> np.ndarray:
+        """e(t), m."""
+        return self.shake * (1.0 - np.cos(SHAKEN * t)) ** 2
 
 
 def steady(speed: float, **changes: Any) -> Setting:
@@ -59,13 +80,22 @@ def to_and_fro() -> Setting:
     )  # fmt: skip
 
 
+def gentle(size: float, frequency: float) -> list[dict[str, Any]]:
+    """The terms of ``size (1 - cos w t)^2``."""
+    quarter = np.pi / 2.0
+    terms = [constant(1.5 * size), sine(-2.0 * size, frequency, quarter), sine(0.5 * size, 2.0 * frequency, quarter)]
+    return terms if size else []
+
+
 def run(setting: Setting, step: float = 1e-3) -> Run:
     """The engine's answer."""
     scenario = open_loop(
         winch=setting.winch,
-        initial={"shape": "gaussian", "amplitude": 1.0, "distance": setting.center, "width": setting.width},
+        initial={"shape": "gaussian", "amplitude": setting.bump, "distance": setting.center, "width": setting.width},
         payload={"mass": setting.mass, "damping": setting.damping},
         environment__gravity=setting.gravity,
+        environment__payload_force=gentle(setting.push, PUSHED),
+        environment__vessel_motion=gentle(setting.shake, SHAKEN),
         cable__damping=0.0,
         duration=setting.until,
         grid__step=step,
@@ -85,6 +115,8 @@ def reference(setting: Setting, **resolution: int) -> MovingEnd:
         setting.length,
         setting.start,
         1.2 * setting.until,
+        setting.impulse,
+        setting.vessel,
         **resolution,
     )
 
@@ -99,11 +131,12 @@ def compared(setting: Setting, exact: Callable[[Setting], Any] = reference, step
     instants = found["time"].values
     distances = np.multiply.outer(setting.length(instants), 1.0 - found["sigma"].values)
     expected = [np.array(rows) for rows in zip(*map(partial(_fields, solution), distances, instants), strict=True)]
-    for quantity, values, theirs in zip(("y", "y_x", "Dy/Dt"), fields.values(), expected, strict=True):
-        yield history_close(f"{quantity} over {setting.until:g} s", values, theirs, TOLERANCE, WHY)
+    limit = (TOLERANCE, WHY) if setting.bump else (SMOOTH, WHY_SMOOTH)
+    span = f"over {setting.until:g} s"
+    for quantity, values, theirs in zip(("y, m", "y_x", "Dy/Dt, m/s"), fields.values(), expected, strict=True):
+        yield history_close(f"{quantity}, {span}", values, theirs, *limit)
     if exact is reference:
-        tip, true = fields["displacement"][:, -1], expected[0][:, -1]
-        yield history_close(f"y(l,t) over {setting.until:g} s", tip, true, TOLERANCE, WHY)
+        yield history_close(f"y(l,t), m, {span}", fields["displacement"][:, -1], expected[0][:, -1], *limit)
 
 
 def _fields(solution: Any, distance: np.ndarray, t: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -124,13 +157,15 @@ def held(speed: float) -> Iterator[Check]:
     return compared(setting, lambda s: HeldEnd(50.0, 250.0, speed, s.start))
 
 
-DELAY = "m V' + (Z + k) V = 2 Z h' along characteristics, to 1e-10"
+DELAY = "m V' + (Z + k) V = P + 2 Z h' along characteristics, to 1e-10"
 SOURCE = "d'Alembert; delay equation of the tip"
 WAYS = {
     "fixed": steady(0.0),
     "paying out at 5 m/s": steady(5.0),
     "hauling in at 4 m/s": steady(-4.0),
     "to and fro": to_and_fro(),
+    "pushed and shaken, paying out": steady(5.0, bump=0.0, push=20.0, shake=0.1),
+    "pushed and shaken, hauling in": steady(-4.0, bump=0.0, push=20.0, shake=0.1),
 }
 PHASE = "R = 2 ln(1 + b c t/l0)/ln((1 + b)/(1 - b))"
 

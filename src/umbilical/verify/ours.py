@@ -14,6 +14,7 @@ from umbilical.admission import load
 from umbilical.admission.steps import chosen_step
 from umbilical.engine.linear import step_matrix
 from umbilical.engine.simulate import simulate
+from umbilical.plant.layout import to_nodal
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify.cases import CaseError
@@ -55,17 +56,28 @@ def completed(scenario: Scenario) -> Run:
 
 
 def poles(scenario: Scenario, count: int) -> np.ndarray:
-    """The ``count`` slowest poles above the real axis, 1/s, of the engine's own step with the winch stopped.
+    """The ``count`` slowest poles above the real axis, 1/s; see :func:`modes`."""
+    return modes(scenario, count)[0]
+
+
+def modes(scenario: Scenario, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """The slowest poles above the real axis, 1/s, of the engine's own step with the winch stopped, and their shapes.
 
     A pole s of the cable is an eigenvalue ``exp(s dt)`` of the step, and the slowest are the nearest to 1. Those of
     waves too short for the grid, and of what the integrator remembers, are far from it.
+
+    Returns:
+        Poles, shape (count,), and velocities along the cable over that of the ROV, the part in phase with it, shape
+        (count, 4 n + 1).
     """
     from scipy.sparse import csc_array
     from scipy.sparse.linalg import eigs
 
-    step = step_matrix(scenario)
+    step, elements = step_matrix(scenario), scenario.grid.elements
     start = np.ones(len(step))
-    nearest = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start, return_eigenvectors=False)
+    nearest, vectors = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start)
     found = np.log(np.asarray(nearest)) / chosen_step(scenario)
-    upper = found[np.imag(found) > 1e-9]
-    return upper[np.argsort(np.imag(upper))][:count]
+    upper = np.flatnonzero(found.imag > 1e-9)
+    order = upper[np.argsort(found.imag[upper])][:count]
+    velocities = vectors[: 10 * elements, order].T.reshape(-1, 5, 2 * elements)[..., elements:]
+    return found[order], to_nodal(np.real(velocities / velocities[:, -1:, -1:]))

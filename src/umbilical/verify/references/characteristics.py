@@ -1,10 +1,10 @@
 """Reference solver: the cable of constant tension on a moving domain, by the method of characteristics.
 
 At distance s from the ROV the cable is ``y = F(t - s/c) + H(t + s/c)``, whatever the winch does. The vessel
-end returns ``H(t + l(t)/c) = e(t) - F(t - l(t)/c)``; the ROV turns H into its own motion Y0,
-``m Y0' + (Z + k)(Y0 - Y0(0)) = 2 Z (H - H(0))`` (start at rest), and sends ``F = Y0 - H``. Each stretch
-shorter than the way up and down is a linear equation with a known right-hand side, solved by Chebyshev
-collocation, so the only error is the polynomial one: below 1e-10.
+end returns ``H(t + l(t)/c) = e(t) - F(t - l(t)/c)``; the ROV turns H and the impulse I of a force P on it into its
+own motion Y0, ``m Y0' + (Z + k)(Y0 - Y0(0)) = 2 Z (H - H(0)) + I`` (start at rest), and sends ``F = Y0 - H``.
+Each stretch shorter than the way up and down is a linear equation with a known right-hand side, solved by
+Chebyshev collocation, so the only error is the polynomial one: below 1e-10.
 """
 
 from __future__ import annotations
@@ -17,8 +17,13 @@ from numpy.polynomial import chebyshev as cheb
 Curve = Callable[[np.ndarray], np.ndarray]
 
 
+def nothing(t: np.ndarray) -> np.ndarray:
+    """0 at all times."""
+    return np.zeros_like(t)
+
+
 class MovingEnd:
-    """Free response of cable and ROV.
+    """Response of cable and ROV to a start, a force on the ROV and a motion of the vessel.
 
     Args:
         tension: N, constant.
@@ -28,14 +33,17 @@ class MovingEnd:
         length: cable length, m, over arrays of time.
         start: displacement at rest, m, over arrays of the distance from the ROV; it vanishes at both ends.
         until: last instant wanted, s.
+        impulse: ``I = integral of P``, N s, over arrays of time; smooth, and 0 at 0.
+        vessel: e(t), m, likewise.
         pieces: stretches per second.
         degree: of the polynomial on each stretch.
     """
 
     def __init__(
         self, tension: float, density: float, mass: float, damping: float, length: Curve, start: Curve, until: float,
-        pieces: int = 4, degree: int = 40,
+        impulse: Curve = nothing, vessel: Curve = nothing, pieces: int = 4, degree: int = 40,
     ) -> None:  # fmt: skip
+        self._impulse, self._vessel, self._mass = impulse, vessel, mass
         self._speed, impedance = float(np.sqrt(tension / density)), float(np.sqrt(tension * density))
         self._length, self._start, self._pieces = length, start, pieces
         self._reach = float(length(np.zeros(1))[0]) / self._speed
@@ -66,6 +74,7 @@ class MovingEnd:
         values = cheb.chebvander(nodes, degree)
         slopes = cheb.chebvander(nodes, degree - 1) @ cheb.chebder(np.eye(degree + 1)) * 2.0 / (end - begin)
         matrix, right = slopes + decay * values, drive * (self._incoming(instants) - 0.5 * origin) + decay * origin
+        right += self._impulse(instants) / self._mass
         matrix[0], right[0] = values[0], value
         return np.linalg.solve(matrix, right)
 
@@ -76,7 +85,7 @@ class MovingEnd:
         out[early] = 0.5 * self._start(np.abs(u[early]) * self._speed)
         if not early.all():
             left = self._departure(u[~early])
-            out[~early] = -self._outgoing(left - self._length(left) / self._speed)
+            out[~early] = self._vessel(left) - self._outgoing(left - self._length(left) / self._speed)
         return out
 
     def _outgoing(self, u: np.ndarray) -> np.ndarray:

@@ -41,6 +41,16 @@ def frequencies(string: HangingString, count: int) -> np.ndarray:
         return np.array([float(mpmath.findroot(equation, root)) for root in _scanned(foot, top, count)])
 
 
+def mode_shape(string: HangingString, frequency: float, above: np.ndarray) -> np.ndarray:
+    """Y at heights above the ROV, 1 at the ROV: ``J0(z) Y0(z1) - Y0(z) J0(z1)``."""
+    top = frequency * string.argument(string.length)
+
+    def shape(z: Any) -> Any:
+        return jv(0, z) * yv(0, top) - yv(0, z) * jv(0, top)
+
+    return shape(frequency * string.argument(above)) / shape(frequency * string.argument(0.0))
+
+
 def _scanned(foot: float, top: float, count: int) -> list[float]:
     """The roots in double precision, none left out: their distance tends to ``pi/(top - foot)``."""
 
