@@ -35,6 +35,33 @@ EDITS = {
         "flow[f] = velocity + transport * slope",
         ("moving end, paying out at 5 m/s", "moving end, hauling in at 4 m/s"),
     ),
+    "the work of the thrust": Edit(
+        "engine/stepping.py",
+        "work[THRUST] += mean[0] * moved",
+        "work[THRUST] -= mean[0] * moved",
+        ("power balance, paying out, controlled", "power balance, hauling in, controlled"),
+    ),
+    "the ROV's part in the rate of the slope": Edit(
+        "engine/sensing.py",
+        "slope += cable.LIFT * (",
+        "slope -= cable.LIFT * (",
+        (
+            "manufactured solution, l growing, rate of the slope",
+            "manufactured solution, l shrinking, rate of the slope",
+        ),
+    ),
+    "the cross term of (60)": Edit(
+        "control/motor/backstepping.py",
+        "-gains.current_gain * e2 - e1 - c.f21 * speed",
+        "-gains.current_gain * e2 + e1 - c.f21 * speed",
+        ("whole cascade, 7 s of the paper's scenario",),
+    ),
+    "the robust term of (59)": Edit(
+        "control/motor/backstepping.py",
+        "wanted_rate -= robust1",
+        "wanted_rate += robust1",
+        ("whole cascade, 7 s of the paper's scenario",),
+    ),
 }
 
 JUDGE = """

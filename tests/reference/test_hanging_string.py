@@ -9,7 +9,7 @@ from tests.support.verdicts import assert_holds, each
 from umbilical.engine.linear import step_poles
 from umbilical.verify import hanging_string, ours, static_deflection, tip_damper
 from umbilical.verify.cases import Case
-from umbilical.verify.references.hanging_string import HangingString, damped_pole, frequencies, static_shape
+from umbilical.verify.references.hanging_string import HangingString, damped_poles, frequencies, static_shape
 
 PRINTED = {
     500.0: (0.1536771590334, 0.483646205031, 0.8881725784718, 1.30776502146, 1.731946215684, 2.158067989623),
@@ -41,8 +41,18 @@ def test_the_reference_has_the_printed_frequencies(length: float) -> None:
 
 def test_the_undamped_limit_of_the_damped_equation_is_the_undamped_one() -> None:
     string = HangingString(length=400.0)
-    for frequency in frequencies(string, 4):
-        assert damped_pole(string, 0.0, near=1.001j * frequency) == pytest.approx(1j * frequency, rel=1e-12)
+    found = damped_poles(string, 1e-3, 4)
+    np.testing.assert_allclose(found.imag, frequencies(string, 4), rtol=1e-9)
+    assert ((found.real < 0.0) & (found.real > -1e-3 / string.mass)).all()
+
+
+def test_an_overdamped_mode_is_none_of_the_damped_ones() -> None:
+    """400 N s/m is more than the slowest mode bears: five others are found, the first of them above the second's."""
+    string = HangingString(length=400.0)
+    found = damped_poles(string, 400.0, 5)
+    assert found.shape == (5,)
+    assert (np.diff(found.imag) > 0.0).all()
+    assert found[0].imag > frequencies(string, 1)[0]
 
 
 def test_the_stiffness_at_the_payload_is_the_printed_one() -> None:

@@ -33,8 +33,8 @@ def force(t: float) -> float:
     return float(40.0 * (1.0 - np.cos(0.7 * t)) ** 2)
 
 
-def histories(period: float) -> tuple[np.ndarray, np.ndarray]:
-    """y(l,t), m, and the delivered thrust, N, of the engine."""
+def histories(period: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """y(l,t), m, the delivered thrust, N, and the voltages, V, of the engine."""
     quarter = np.pi / 2.0
     changes = {
         "duration": UNTIL,
@@ -45,21 +45,25 @@ def histories(period: float) -> tuple[np.ndarray, np.ndarray]:
         "motors.1.voltage_disturbance": [BELL | {"amplitude": 0.2}],
     }
     run = ours.completed(load("paper", changes))
-    return run["tip_displacement"].values, run["thrust"].values
+    return run["tip_displacement"].values, run["thrust"].values, run["motor_voltage"].values.T
 
 
 @cache
-def reference(degree: int = 24) -> tuple[np.ndarray, np.ndarray]:
+def reference(degree: int = 24) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The same of the continuous law, every 0.05 s."""
     found = monolithic.solve(force, np.linspace(0.0, UNTIL, 141), degree)
-    return found.tip, THRUST @ (np.abs(found.speeds) * found.speeds)
+    return found.tip, THRUST @ (np.abs(found.speeds) * found.speeds), found.voltages
 
 
 def compared() -> Iterator[Check]:
     """Distance at four periods, and what is left when its first order is taken out."""
     exact = reference()
     found = [histories(period) for period in PERIODS]
-    for place, name, unit, tolerance in ((0, "y(l,t)", "m", 5e-4), (1, "thrust", "N", 1e-4)):
+    for place, name, unit, tolerance in (
+        (0, "y(l,t)", "m", 5e-4),
+        (1, "thrust", "N", 1e-5),
+        (2, "voltages", "V", 2e-5),
+    ):
         off = tuple(float(np.abs(f[place] - exact[place]).max()) for f in found)
         curve = Curve(f"{name} to the continuous law", "the period, s", PERIODS, off, PERIOD_ORDER)
         yield order_reached(curve, "stated; above it while the second order in the period still counts")

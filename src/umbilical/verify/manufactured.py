@@ -17,7 +17,7 @@ import numpy as np
 from umbilical.analysis.convergence import Curve
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify import ours
-from umbilical.verify.cases import Case, Check, order_reached, small
+from umbilical.verify.cases import Case, Check, history_close, order_reached, small
 from umbilical.verify.ours import constant, open_loop, sine
 from umbilical.verify.references import manufactured as exact
 from umbilical.verify.references.manufactured import Problem
@@ -44,12 +44,13 @@ TERM_TOLERANCE = 5e-5
 
 
 class Answer(NamedTuple):
-    """y and Dy/Dt at the nodes at the end, and y at the ROV over time."""
+    """y and Dy/Dt at the nodes at the end; y and D(y_x)/Dt at the ROV over time."""
 
     sigma: np.ndarray
     displacement: np.ndarray
     velocity: np.ndarray
     tip: np.ndarray
+    tip_slope_rate: np.ndarray
 
 
 def _positions(elements: int) -> np.ndarray:
@@ -102,9 +103,8 @@ def _winch(problem: Problem) -> dict[str, Any]:
 def solve(problem: Problem, elements: int, step: float) -> Answer:
     """The engine's answer at the end."""
     run = ours.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
-    return Answer(
-        run["sigma"].values, run["displacement"].values[-1], run["velocity"].values[-1], run["tip_displacement"].values
-    )
+    fields = (run[name].values[-1] for name in ("displacement", "velocity"))
+    return Answer(run["sigma"].values, *fields, run["tip_displacement"].values, run["tip_slope_rate"].values)
 
 
 def errors(problem: Problem, elements: int) -> tuple[float, float, float]:
@@ -114,8 +114,8 @@ def errors(problem: Problem, elements: int) -> tuple[float, float, float]:
     """
     coarse, fine = (solve(problem, elements, step) for step in FINE_STEPS)
     power = 2.0**TIME_ORDER
-    y, w, tip = ((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True))
-    off_y, off_w, off_tip = _missed(problem, Answer(fine.sigma, y, w, tip))
+    without = Answer(fine.sigma, *((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True)))
+    off_y, off_w, off_tip = _missed(problem, without)
     y_rms, w_rms = (float(np.sqrt(np.trapezoid(off**2, fine.sigma))) for off in (off_y, off_w))
     return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))
 
@@ -165,6 +165,15 @@ def in_time(problem: Problem) -> Iterator[Check]:
     yield small("error of y at 1 ms on 32 elements, over the leading term", off / leading, 0.3, why)
 
 
+def slope_rate(swing: float) -> Iterator[Check]:
+    """What an ideal sensor of the slope's rate reads at the ROV: no state, but made from the last element."""
+    problem = Problem(swing)
+    found = solve(problem, 16, 1e-3).tip_slope_rate
+    exact_rate = exact.tip_slope_rate(problem, np.linspace(0.0, UNTIL, found.size))
+    why = "a derivative on 16 elements; the ROV's velocity left out of it misses by 1e-1"
+    yield history_close("D(y_x)/Dt(l,t), 1/s", found, exact_rate, 1e-3, why)
+
+
 def terms_off() -> Iterator[Check]:
     """All terms at work, then each off in turn: where only the rows without it hold, it is the term that is wrong."""
     for name, problem in TERMS_OFF.items():
@@ -184,6 +193,10 @@ CASES = (
         )
         for way, swing in SIZES.items()
         for what, find in (("in space", in_space), ("in time", in_time))
+    ),
+    *(
+        Case(f"manufactured solution, l {way}, rate of the slope", REFERENCE, SOURCE, lambda s=swing: slope_rate(s))
+        for way, swing in SIZES.items()
     ),
     Case("manufactured solution, term by term", REFERENCE, SOURCE, terms_off),
 )

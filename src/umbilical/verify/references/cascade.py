@@ -32,10 +32,11 @@ class Matrices(NamedTuple):
 
 
 class Histories(NamedTuple):
-    """y(l,t), m, and speeds of the motors, rad/s, shape (2, t)."""
+    """y(l,t), m, and speeds, rad/s, and voltages, V, of the motors, shape (2, t)."""
 
     tip: Array
     speeds: Array
+    voltages: Array
 
 
 def matrices(degree: int) -> Matrices:
@@ -89,20 +90,27 @@ def solve(force: Callable[[float], float], times: Array, degree: int = 40) -> Hi
     """
     m = matrices(degree)
 
-    def rates(t: float, state: Array) -> Array:
-        q, momentum, tail = state[:degree], state[degree : 2 * degree], state[2 * degree :]
+    def controlled(t: float, state: Array) -> tuple[Array, Array, Array]:
+        """Voltages; the rates of the outer observers; those of filters and of the motors' observers."""
+        q, tail = state[:degree], state[2 * degree :]
         speed, current, observers, filters, ups = tail[0:2], tail[2:4], tail[4:9], tail[9:15].reshape(3, 2), tail[15:17]
         length, _, a = paper.winch(t)
         thrust, observer_rates = paper.outer_law(q[0], q.sum() / length, paper.MASS * (paper.GRAVITY - a), observers)
         voltage, filter_rates, ups_rate = paper.motor_loops(thrust, speed, current, filters, ups)
+        return voltage, observer_rates, np.concatenate([filter_rates.ravel(), ups_rate])
+
+    def rates(t: float, state: Array) -> Array:
+        q, momentum, speed, current = np.split(state, [degree, 2 * degree, 2 * degree + 2, 2 * degree + 4])[:4]
+        voltage, observer_rates, inner_rates = controlled(t, state)
         bell = paper.motor_disturbances(t)[0][1] * np.ones(2)
         speed_rate, current_rate = paper.motor_rates(speed, current, voltage, (bell, 0.2 * bell))
         delivered = float(paper.THRUST @ (abs(speed) * speed))
         cable = cable_rates(m, t, q, momentum, force(t) + delivered)
-        return np.concatenate([*cable, speed_rate, current_rate, observer_rates, filter_rates.ravel(), ups_rate])
+        return np.concatenate([*cable, speed_rate, current_rate, observer_rates, inner_rates])
 
     start = np.zeros(2 * degree + 17)
     done = solve_ivp(rates, (0.0, float(times[-1])), start, "DOP853", t_eval=times, rtol=1e-8, atol=1e-11)
     if not (done.success and np.isfinite(done.y).all()):
         raise CaseError(f"the monolithic reference failed: {done.message}")
-    return Histories(done.y[0], done.y[2 * degree : 2 * degree + 2])
+    voltages = np.array([controlled(t, state)[0] for t, state in zip(times, done.y.T, strict=True)]).T
+    return Histories(done.y[0], done.y[2 * degree : 2 * degree + 2], voltages)

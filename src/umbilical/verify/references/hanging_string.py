@@ -75,8 +75,20 @@ def steady_tension_frequencies(string: HangingString, count: int) -> np.ndarray:
     return np.array(roots) * speed / string.length
 
 
-def damped_pole(string: HangingString, tip_damping: float, near: complex) -> complex:
-    """Root of ``(m lam^2 + c_tip lam) Y + T Y_x = 0`` at the ROV with Y the string's shape at pole lam, 1/s."""
+def damped_poles(string: HangingString, tip_damping: float, count: int, stages: int = 5) -> np.ndarray:
+    """Roots of ``(m lam^2 + c_tip lam) Y + T Y_x = 0`` at the ROV with Y the string's shape at pole lam, 1/s.
+
+    Followed from the undamped ones while the damper grows, so that none is left out or found twice. A mode that is
+    overdamped in the end, which has left the upper half plane, does not count.
+    """
+    found = 1j * frequencies(string, count + 1)
+    for stage in range(1, stages + 1):
+        found = np.array([_damped_pole(string, tip_damping * stage / stages, near) for near in found])
+    upper = found[found.imag > 1e-9]
+    return upper[np.argsort(upper.imag)][:count]
+
+
+def _damped_pole(string: HangingString, tip_damping: float, near: complex) -> complex:
     foot, top = float(string.argument(0.0)), float(string.argument(string.length))
 
     def residue(lam: Any) -> Any:
@@ -90,7 +102,7 @@ def damped_pole(string: HangingString, tip_damping: float, near: complex) -> com
         slope = shape(1) * 2 * w * w / (string.gravity * z0)
         return (string.mass * lam * lam + tip_damping * lam) * shape(0) + string.mass * string.gravity * slope
 
-    with mpmath.workdps(30):
+    with mpmath.workdps(20):
         return complex(mpmath.findroot(residue, near))
 
 

@@ -89,6 +89,15 @@ def velocity(problem: Problem, sigma: Array, t: Array | float) -> Array:
     return (p.first - slide * q.value) * np.sin(angle) + (q.first + slide * p.value) * np.cos(angle)
 
 
+def tip_slope_rate(problem: Problem, t: Array) -> Array:
+    """D(y_x)/Dt at the ROV, 1/s: there A = 0, so it is the plain time derivative of the slope."""
+    p, q = problem.sine_part(t), problem.cosine_part(t)
+    length, speed, _ = problem.winch(t)
+    s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
+    value, rate = p.value * c - q.value * s, p.first * c - q.first * s
+    return WAVENUMBER / length * (rate - speed / length * value)
+
+
 def profiles(sigma: Array) -> Array:
     """The six profiles along the cable, shape (6, sigma): ``{1, A, A^2} x {sin, cos}``, sines first."""
     above = 1.0 - sigma
