@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import umbilical
-from tests.support.random_scenarios import between, few, waves, winches
+from tests.support.random_scenarios import between, failing, few, moving_winches, waves, winches
 from tests.support.scenarios import open_loop, run
 from umbilical import Status
 from umbilical.errors import ScenarioError
@@ -45,6 +45,31 @@ def test_power_balance_closes(
             environment__vessel_ramp=2.0,
         )
     )
+    assert result.metrics["energy_balance_residual"] < 1e-4
+
+
+@few
+@given(
+    preset=st.sampled_from(["paper", "paper-adaptive", "crosscheck-pd"]),
+    winch=moving_winches,
+    faults=failing,
+    force=waves,
+    vessel=waves,
+)
+def test_power_balance_closes_in_the_loop(
+    preset: str, winch: dict[str, Any], faults: list[dict[str, Any]], force: dict[str, Any], vessel: dict[str, Any]
+) -> None:
+    """Motors at work, some failing, the winch starting and stopping: the thrust does what is booked for it."""
+    motors = {} if preset == "crosscheck-pd" else {"faults": faults}
+    changes = {
+        "winch": winch,
+        "duration": 5.0,
+        "grid.elements": 32,
+        "environment.payload_force": [force | {"amplitude": 100.0 * force["amplitude"]}],
+        "environment.vessel_motion": [vessel | {"amplitude": 0.3 * vessel["amplitude"]}],
+        "environment.vessel_ramp": 2.0,
+    }
+    result = run(umbilical.load(preset, changes | motors))
     assert result.metrics["energy_balance_residual"] < 1e-4
 
 

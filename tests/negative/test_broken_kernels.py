@@ -54,13 +54,13 @@ EDITS = {
         "control/motor/backstepping.py",
         "-gains.current_gain * e2 - e1 - c.f21 * speed",
         "-gains.current_gain * e2 + e1 - c.f21 * speed",
-        ("whole cascade, 7 s of the paper's scenario",),
+        ("law of a motor at random states",),
     ),
     "the robust term of (59)": Edit(
         "control/motor/backstepping.py",
         "wanted_rate -= robust1",
         "wanted_rate += robust1",
-        ("whole cascade, 7 s of the paper's scenario",),
+        ("law of a motor at random states",),
     ),
 }
 

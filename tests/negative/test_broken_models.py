@@ -46,6 +46,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "a tenth more resistance": (another_scenario(broken.a_tenth_more("resistance")), ("motor, steady*",)),
     "high-gain observer off by two": (broken.high_gain_observer_off_by_two, ("high-gain*", "whole cascade*")),
     "disturbance observer off by two": (broken.disturbance_observer_off_by_two, ("disturbance observer of the ROV",)),
+    "cross term of the inner law": (broken.cross_term_of_the_inner_law, ("law of a motor*",)),
+    "inertia that the outer law forgets": (broken.inertia_forgotten, ("law at the ROV*",)),
     "motor's observer off by two": (broken.motor_observer_off_by_two, ("disturbance observer of a motor",)),
     "disturbance observer off by two, in the loop": (
         another_scenario(broken.twice_the_gain_of_the_disturbance_observer),

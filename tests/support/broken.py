@@ -12,9 +12,11 @@ from tests.support.scenarios import sine
 from umbilical import Scenario
 from umbilical.admission import motion
 from umbilical.control.allocation import adaptive
+from umbilical.control.motor import backstepping
 from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
+from umbilical.control.outer import boundary
 from umbilical.plant import exogenous, faults, signals, winch
 from umbilical.scenario.document import look_up
 from umbilical.verify import ours
@@ -178,6 +180,24 @@ def motor_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
         return right(constants, 2.0 * gain, decay * decay, *rest)
 
     patch.setattr(of_motor, "advance_motor_disturbance", wrong)
+
+
+def cross_term_of_the_inner_law(patch: pytest.MonkeyPatch) -> None:
+    """- e1 of (60) with the other sign."""
+    right = backstepping.backstepping_drive
+
+    def wrong(constants: Any, gains: Any, speed: float, current: float, reference: Any) -> float:
+        return right(constants, gains, speed, current, reference) + 2.0 * (speed - reference[0])
+
+    patch.setattr(backstepping, "backstepping_drive", wrong)
+
+
+def inertia_forgotten(patch: pytest.MonkeyPatch) -> None:
+    """Without - beta m z2 of (22)."""
+    right = boundary.boundary_thrust
+    patch.setattr(
+        boundary, "boundary_thrust", lambda k, beta, mass, error, rate, *rest: right(k, beta, mass, error, 0.0, *rest)
+    )
 
 
 def wrong_sign_of_the_adaptive_law(patch: pytest.MonkeyPatch) -> None:

@@ -53,6 +53,31 @@ cables = st.fixed_dictionaries({
 })  # fmt: skip
 
 
+trapezoid = st.builds(
+    lambda way, speed: {
+        "law": "trapezoid", "start_length": 120.0, "end_length": 120.0 + way, "top_speed": speed, "acceleration": 2.0,
+    },
+    st.one_of(between(-20.0, -6.0), between(6.0, 20.0)),
+    between(0.5, 3.0),
+)  # fmt: skip
+moving_winches = st.one_of(winches, trapezoid)
+
+
+def _fault(kind: str, motor: int, start: float, share: float) -> dict[str, Any]:
+    more = {"partial": {"effectiveness": share}, "stuck": {"value": 100.0 * share}, "dead": {}}[kind]
+    return {"kind": kind, "motor": motor, "start": start} | more
+
+
+failing = st.lists(
+    st.builds(
+        _fault, st.sampled_from(["dead", "stuck", "partial"]), st.integers(1, 2), between(0.5, 2.5), between(0, 1)
+    ),
+    max_size=2,
+    unique_by=lambda fault: fault["motor"],
+)
+"""Faults of two motors, none to both."""
+
+
 Refused = tuple[dict[str, Any], tuple[str, ...]]
 """Overrides, and the keys one of which the refusal must name."""
 

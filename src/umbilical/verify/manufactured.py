@@ -170,8 +170,8 @@ def slope_rate(swing: float) -> Iterator[Check]:
     problem = Problem(swing)
     found = solve(problem, 16, 1e-3).tip_slope_rate
     exact_rate = exact.tip_slope_rate(problem, np.linspace(0.0, UNTIL, found.size))
-    why = "a derivative on 16 elements; the ROV's velocity left out of it misses by 1e-1"
-    yield history_close("D(y_x)/Dt(l,t), 1/s", found, exact_rate, 1e-3, why)
+    why = "a derivative on 16 elements; with the ROV's velocity of the wrong sign it misses by 8e-4"
+    yield history_close("D(y_x)/Dt(l,t), 1/s", found, exact_rate, 8e-5, why)
 
 
 def terms_off() -> Iterator[Check]:
