@@ -103,8 +103,13 @@ def _winch(problem: Problem) -> dict[str, Any]:
 def solve(problem: Problem, elements: int, step: float) -> Answer:
     """The engine's answer at the end."""
     run = ours.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
-    fields = (run[name].values[-1] for name in ("displacement", "velocity"))
-    return Answer(run["sigma"].values, *fields, run["tip_displacement"].values, run["tip_slope_rate"].values)
+    return Answer(
+        run["sigma"].values,
+        run["displacement"].values[-1],
+        run["velocity"].values[-1],
+        run["tip_displacement"].values,
+        run["tip_slope_rate"].values,
+    )
 
 
 def errors(problem: Problem, elements: int) -> tuple[float, float, float]:
@@ -114,7 +119,8 @@ def errors(problem: Problem, elements: int) -> tuple[float, float, float]:
     """
     coarse, fine = (solve(problem, elements, step) for step in FINE_STEPS)
     power = 2.0**TIME_ORDER
-    without = Answer(fine.sigma, *((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True)))
+    y, w, tip, rate = ((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True))
+    without = Answer(fine.sigma, y, w, tip, rate)
     off_y, off_w, off_tip = _missed(problem, without)
     y_rms, w_rms = (float(np.sqrt(np.trapezoid(off**2, fine.sigma))) for off in (off_y, off_w))
     return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))

@@ -75,8 +75,9 @@ def modes(scenario: Scenario, count: int) -> tuple[np.ndarray, np.ndarray]:
 
     step, elements = step_matrix(scenario), scenario.grid.elements
     start = np.ones(len(step))
-    nearest, vectors = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start)
-    found = np.log(np.asarray(nearest)) / chosen_step(scenario)
+    pairs: Any = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start)
+    nearest, vectors = pairs
+    found = np.log(nearest) / chosen_step(scenario)
     upper = np.flatnonzero(found.imag > 1e-9)
     order = upper[np.argsort(found.imag[upper])][:count]
     velocities = vectors[: 10 * elements, order].T.reshape(-1, 5, 2 * elements)[..., elements:]

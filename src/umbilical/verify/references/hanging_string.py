@@ -84,8 +84,8 @@ def damped_poles(string: HangingString, tip_damping: float, count: int, stages: 
     found = 1j * frequencies(string, count + 1)
     for stage in range(1, stages + 1):
         found = np.array([_damped_pole(string, tip_damping * stage / stages, near) for near in found])
-    upper = found[found.imag > 1e-9]
-    return upper[np.argsort(upper.imag)][:count]
+    upper = found[np.imag(found) > 1e-9]
+    return upper[np.argsort(np.imag(upper))][:count]
 
 
 def _damped_pole(string: HangingString, tip_damping: float, near: complex) -> complex:
