@@ -17,6 +17,6 @@ def test_case(case: Case) -> None:
 
 @pytest.mark.slow
 def test_the_reference_does_not_depend_on_its_degree() -> None:
-    """To a hundredth of what the case asks of the engine."""
-    for found, finer, share in zip(cascade.reference(), cascade.reference(32), (5e-6, 1e-6, 1e-6), strict=True):
+    """To a fifth of what the case asks of the engine, the displacement to a hundredth."""
+    for found, finer, share in zip(cascade.reference(), cascade.reference(32), (5e-6, 1e-6, 4e-6), strict=True):
         assert np.abs(found - finer).max() < share * np.abs(found).max()
