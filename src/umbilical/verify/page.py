@@ -52,7 +52,7 @@ def numbers(check: Check) -> tuple[str, str, str, str]:
 
     Errors with one digit: more would change from machine to machine.
     """
-    return f"{check.ours:.6g}", f"{check.expected:.6g}", rounded(check.error), f"{check.tolerance:.2g}"
+    return f"{check.ours:.7g}", f"{check.expected:.7g}", rounded(check.error), f"{check.tolerance:.2g}"
 
 
 def rounded(error: float) -> str:
