@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -86,7 +87,7 @@ def _report(certificate: Certificate) -> Iterator[str]:
     yield ""
     yield table(
         [
-            (n, f"{value:.6g}", shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
+            (n, "none" if isnan(value) else f"{value:.6g}", shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
             for n, value in _numbers(certificate)
         ]
     )
@@ -147,7 +148,9 @@ def _proof(certificate: Certificate) -> str:
     proof = certificate.proof
     if proof.holds:
         return f"verified for all x and t by interval arithmetic, in {proof.boxes} boxes of time"
-    return f"not verified: {len(proof.open)} slabs of time stayed open"
+    if not proof.boxes:
+        return "nothing to verify: no weights meet K1, K2 and K4 at once, so there is no rate that could be claimed"
+    return f"not verified: {len(proof.open)} of {certificate.rates.size} slabs of time stayed open"
 
 
 def _consequences(certificate: Certificate) -> Iterator[str]:

@@ -85,7 +85,7 @@ class Proof(NamedTuple):
 
     Attributes:
         holds: every condition is proved for all x in [0, l(t)] and all t of the run.
-        boxes: intervals of time it took.
+        boxes: intervals of time it took; none where no weights were found that could be tried.
         open: what could not be proved, by name and interval of time, s.
     """
 
@@ -153,7 +153,7 @@ class Certificate:
     @property
     def holds(self) -> bool:
         """Whether V decays at a positive rate all along the run, and this was verified."""
-        return self.proof.holds and all(inequality.holds for inequality in self.inequalities)
+        return self.proof.holds and self.rate > 0.0 and all(inequality.holds for inequality in self.inequalities)
 
     @property
     def broken(self) -> tuple[Inequality, ...]:
