@@ -155,30 +155,15 @@ def _proof(certificate: Certificate) -> str:
 
 def _consequences(certificate: Certificate) -> Iterator[str]:
     """Bounds of V and of the displacement from the scenario's own start."""
-    bounds = _bounds(certificate)
-    if bounds:
-        yield f"  V stays below {bounds['lyapunov_largest']:.4g} J and ends below {bounds['lyapunov_end']:.4g} J"
+    from umbilical.analysis.certificate import largest_bounds
+
+    found = largest_bounds(certificate)
+    if found:
+        yield f"  V stays below {found.lyapunov_largest:.4g} J and ends below {found.lyapunov_end:.4g} J"
         yield (
-            f"  |y| stays below {bounds['tip_largest']:.4g} m all along the cable ({bounds['middle_largest']:.4g} m at "
-            f"its middle) and ends below {bounds['tip_end']:.4g} m ({bounds['middle_end']:.4g} m)"
+            f"  |y| stays below {found.tip_largest:.4g} m all along the cable ({found.middle_largest:.4g} m at "
+            f"its middle) and ends below {found.tip_end:.4g} m ({found.middle_end:.4g} m)"
         )
-
-
-def _bounds(certificate: Certificate) -> dict[str, float]:
-    """Largest and last bounds of V, J, and of |y|, m; none where nothing is proved."""
-    import numpy as np
-
-    from umbilical.analysis.certificate import bound, cable_bound, displacement_bound
-
-    if not np.isfinite(certificate.rates).all() or not certificate.proof.holds:
-        return {}
-    t = np.linspace(0.0, float(certificate.edges[-1]), 401)
-    of_v, of_cable = bound(certificate, t), cable_bound(certificate, t)
-    places = {"largest": float(of_cable.max()), "end": float(of_cable[-1])}
-    found = {"lyapunov_largest": float(of_v.max()), "lyapunov_end": float(of_v[-1])}
-    for when, value in places.items():
-        found[f"middle_{when}"], found[f"tip_{when}"] = displacement_bound(certificate, value)
-    return found
 
 
 def _audit_report(audit: Audit) -> Iterator[str]:
@@ -199,6 +184,9 @@ def _audit_report(audit: Audit) -> Iterator[str]:
 
 def _document(certificate: Certificate, audit: Audit | None, files: dict[str, str]) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
+    from umbilical.analysis.certificate import largest_bounds
+
+    bounds = largest_bounds(certificate)
     return {
         "status": "CERTIFIED" if certificate.holds else "NOT_CERTIFIED",
         "scenario": certificate.scenario.name,
@@ -209,7 +197,7 @@ def _document(certificate: Certificate, audit: Audit | None, files: dict[str, st
         "edges": certificate.edges.tolist(),
         "rates": certificate.rates.tolist(),
         "loads": certificate.loads._asdict(),
-        "bounds": _bounds(certificate),
+        "bounds": bounds._asdict() if bounds else {},
         "proof": certificate.proof._asdict(),
         "cures": [asdict(cure) for cure in certificate.cures],
         "limits": certificate.limits,

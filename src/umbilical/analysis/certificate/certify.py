@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from umbilical.analysis.certificate.attempt import Task, attempt
 from umbilical.analysis.certificate.bounds import reach_of, residual_of, start_of
 from umbilical.analysis.certificate.conditions import conditions, relative_margins, tightest
 from umbilical.analysis.certificate.cure import best_rate, cures
 from umbilical.analysis.certificate.loads import loads_of
 from umbilical.analysis.certificate.paper_conditions import paper_conditions
-from umbilical.analysis.certificate.records import Certificate, Weights
-from umbilical.analysis.certificate.setting import Loop, Motion, loop_of, sampled, slab_edges, stopped
+from umbilical.analysis.certificate.ranges import ranges_of, stretch_of
+from umbilical.analysis.certificate.records import Certificate
+from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
 from umbilical.analysis.ideal_loop import energy_rate
-from umbilical.relations.formulas import tension
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
 
@@ -41,11 +39,12 @@ def certify(scenario: Scenario) -> Certificate:
     loop = loop_of(scenario)
     edges = slab_edges(scenario.winch, scenario.duration)
     motion = sampled(scenario.winch, scenario.environment.gravity, edges)
-    loads = loads_of(scenario.environment, float(motion.l.max()))
+    ranges = ranges_of(scenario.winch, loop.g, edges)
+    loads = loads_of(scenario.environment, float(ranges.length.high.max()))
     task = Task(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
     found = attempt(loop, task)
     weights, proved, proof = found
-    spent, residual, cable_residual = residual_of(loop, motion, weights, float(proved.min()), loads)
+    spent, residual, cable_residual = residual_of(loop, ranges, weights, float(proved.min()), loads)
     stated = conditions(loop, motion, weights, proved, task.vessel_moves)
     return Certificate(
         scenario=scenario,
@@ -56,7 +55,8 @@ def certify(scenario: Scenario) -> Certificate:
         weights=weights,
         edges=edges,
         rates=proved,
-        stretch=_stretch(loop, motion, weights),
+        stretch=stretch_of(loop, scenario.winch, weights, edges),
+        ranges=ranges,
         fixed_length_rate=best_rate(loop, stopped(motion)),
         exact_rate=energy_rate(loop, float(motion.l.max())),
         loads=loads,
@@ -64,24 +64,11 @@ def certify(scenario: Scenario) -> Certificate:
         residual=residual,
         cable_residual=cable_residual,
         start=start_of(loop, scenario),
-        reach=(reach_of(loop, motion, weights, 0.5), reach_of(loop, motion, weights, 1.0)),
+        reach=(reach_of(loop, ranges, weights, 0.5), reach_of(loop, ranges, weights, 1.0)),
         proof=proof,
         cures=() if found.certified else cures(loop, task),
         limits=_limits(scenario),
     )
-
-
-def _stretch(loop: Loop, motion: Motion, weights: Weights) -> np.ndarray:
-    """Largest growth of V where the tension jumps with the winch's acceleration, at each edge.
-
-    ``N_after <= k N_before`` for all x with ``k = 1 + (r - 1)/(1 - rho Q^2/T)``, r the ratio of the tensions; the
-    bracket is smallest at the ROV.
-    """
-    net_before, net_after = loop.g - motion.a[:-1, -1], loop.g - motion.a[1:, 0]
-    pull = tension(0.0 * net_before, net_before, loop.m, loop.hanging)
-    share = loop.rho * (weights.vessel + weights.cross * motion.l[1:, 0]) ** 2 / pull
-    growth = 1.0 + np.maximum(net_after / net_before - 1.0, 0.0) / np.maximum(1.0 - share, 1e-300)
-    return np.concatenate([[1.0], np.where(net_after > net_before * (1.0 + 1e-12), growth, 1.0), [1.0]])
 
 
 def _limits(scenario: Scenario) -> tuple[str, ...]:
