@@ -52,7 +52,7 @@ def certify(
         say_json(_document(found, checked, files))
     else:
         say("\n".join([*_report(found), *(_audit_report(checked) if checked else ()), *_written(files)]))
-    broken = checked is not None and checked.excess > 1.0 + SCATTER
+    broken = checked is not None and max(checked.excess, checked.cable_excess) > 1.0 + SCATTER
     return 0 if found.holds and not broken else DOES_NOT_HOLD
 
 
@@ -87,7 +87,7 @@ def _report(certificate: Certificate) -> Iterator[str]:
     yield ""
     yield table(
         [
-            (n, "none" if isnan(value) else f"{value:.6g}", shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
+            (n, _shown(value, 6), shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
             for n, value in _numbers(certificate)
         ]
     )
@@ -144,6 +144,10 @@ def _numbers(certificate: Certificate) -> list[tuple[str, float]]:
     ]
 
 
+def _shown(value: float, digits: int = 4) -> str:
+    return "none" if isnan(value) else f"{value:.{digits}g}"
+
+
 def _proof(certificate: Certificate) -> str:
     proof = certificate.proof
     if proof.holds:
@@ -170,11 +174,11 @@ def _audit_report(audit: Audit) -> Iterator[str]:
     """What the two simulations made of V."""
     yield ""
     rows = [("V, J", "at the start", "at the end", "its bound there", "largest over its bound", "ended")]
-    ends = f"{audit.bound[-1]:.4g}"
     rows += [
-        (name, f"{v[0]:.4g}", f"{v[-1]:.4g}", limit, f"{ratio:.4g}", run.status.name)
+        (name, _shown(v[0]), _shown(v[-1]), limit, _shown(ratio), run.status.name)
         for name, v, limit, ratio, run in (
-            ("ideal loop", audit.ideal, ends, audit.excess, audit.ideal_run),
+            ("ideal loop", audit.ideal, _shown(audit.bound[-1]), audit.excess, audit.ideal_run),
+            ("  V1 + V2 of it", audit.cable, _shown(audit.cable_bound[-1]), audit.cable_excess, audit.ideal_run),
             ("real loop", audit.real, "-", audit.real_excess, audit.real_run),
         )
     ]
@@ -213,6 +217,7 @@ def _inequality(inequality: Inequality) -> dict[str, Any]:
 def _audit_document(audit: Audit) -> dict[str, Any]:
     return {
         "excess": audit.excess,
+        "cable_excess": audit.cable_excess,
         "real_excess": audit.real_excess,
         "identity": audit.identity,
         "ideal_status": audit.ideal_run.status.name,

@@ -142,7 +142,7 @@ class Certificate:
         start: where the scenario starts from.
         reach: bound of ``|y - e|/sqrt(V)`` at the middle and at the ROV, m/sqrt(J), the largest over the run.
         proof: the independent verification.
-        cures: what would mend it, when it does not hold.
+        cures: what would mend it, when it does not hold and this was asked for.
         limits: what it does not speak about.
     """
 
