@@ -11,9 +11,10 @@ from mpmath.ctx_iv import MPIntervalContext
 
 import umbilical
 from tests.support.certificates import GAIN, fixed, hauled_in
-from umbilical.analysis.certificate import Certificate, Proof
+from umbilical.analysis.certificate import Certificate, Proof, Weights
 from umbilical.analysis.certificate.proof import prove
 from umbilical.analysis.certificate.proof_motion import motion_over
+from umbilical.analysis.certificate.setting import loop_of, slab_edges
 from umbilical.plant import winch as laws
 from umbilical.scenario.winch import ConstantLength, ConstantSpeed, Cosine, Quintic, TabulatedLength, Trapezoid, Winch
 
@@ -88,6 +89,25 @@ def test_a_gain_of_the_observer_below_the_rate_is_noticed(paying_out: Certificat
     loop = paying_out.loop._replace(k_s=0.01)
     found = prove(loop, paying_out.scenario.winch, paying_out.edges, paying_out.rates, paying_out.weights, strict=False)
     assert opened(found) == {"K6"}
+
+
+def test_a_corner_of_zeros_does_not_let_the_other_corner_pass() -> None:
+    """Without damping, lam and rate M is [[0, 0], [0, T j/2]]: its determinant is 0, and with j < 0 it is no sum of
+    squares. The same with lam > 0 and a rate of lam, where only the far corner says no."""
+    scenario = umbilical.load("paper", {GAIN: 5.0, "cable.damping": 0.0})
+    loop, edges = loop_of(scenario), slab_edges(scenario.winch, scenario.duration)
+    for cross, condition in ((0.0, "weights"), (1e-3, "K5")):
+        rates = np.full(edges.size - 1, cross)
+        proof = prove(loop, scenario.winch, edges, rates, Weights(cross, 0.0, 0.5), strict=False)
+        assert condition in opened(proof)
+
+
+@pytest.mark.parametrize("cross", [0.0, -1e-6])
+def test_a_weight_that_is_not_positive_is_noticed(paying_out: Certificate, cross: float) -> None:
+    """With a rate that asks for nothing, so that no other condition speaks."""
+    rates = np.full(paying_out.rates.shape, -1.0)
+    assert again(paying_out, rates).holds
+    assert opened(again(paying_out, rates, cross=cross)) == {"weights"}
 
 
 def test_a_rate_that_is_no_number_is_never_proved(paying_out: Certificate) -> None:

@@ -19,7 +19,10 @@ def test_what_does_not_hold_says_which_by_how_much_and_what_would_mend_it(umbili
     done = umbilical("certify", "haul-in")
     assert done.code == 7
     assert "not certified: K2 (lam (l + x0)/gam <= beta) fails by 1.8" in done.out
-    assert "slope_gain must exceed" in done.out
+    assert "slope_gain must be at least 1.87" in done.out
+    assert "with 0.1% of each bound left free" in done.out
+    assert "nothing to verify: no weights meet K1, K2 and K4" in done.out
+    assert "nan" not in done.out
 
 
 def test_one_object(umbilical):
@@ -40,6 +43,8 @@ def test_one_object_of_what_does_not_hold(umbilical):
     assert done.code == 7
     assert found["status"] == "NOT_CERTIFIED"
     assert found["rate"] is None
+    assert set(found["rates"]) == {None}
+    assert found["proof"] == {"holds": False, "boxes": 0, "open": []}
     assert found["bounds"] == {}
     assert [cure["key"] for cure in found["cures"]] == [GAIN]
 

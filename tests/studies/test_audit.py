@@ -54,6 +54,7 @@ def test_energy_grows_where_nothing_can_be_certified() -> None:
 def test_audit_of_a_preset() -> None:
     found = audit(umbilical.load("ringdown", {GAIN: 2.0, "duration": 5.0}))
     assert found.excess <= 1.0 + EXCESS
+    assert 0.9 < found.cable_excess <= 1.0 + EXCESS
     assert found.identity < IDENTITY
     assert found.ideal_run.scenario.ideal_thruster
     assert not found.real_run.scenario.ideal_thruster

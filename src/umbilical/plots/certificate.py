@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.analysis.certificate import bound
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.analysis.certificate import bound, cable_bound
+from umbilical.plots.figure import COLOURS, ONE_ROW, QUIET, new_figure
 from umbilical.quantities import CERTIFICATE
 
 if TYPE_CHECKING:
@@ -19,7 +19,13 @@ if TYPE_CHECKING:
 
 SAMPLES = 801
 DECADES = 8
-"""Powers of ten that are drawn of V, from its largest bound down."""
+"""Powers of ten that are drawn of V at most, from its largest value down."""
+RARE = 0.005
+"""Share of the samples that may lie below the picture."""
+ROOM = 1.5
+"""Factor between what is drawn and the edges of the picture."""
+EDGE = 0.01
+"""Share of the time axis beside it, so that what happens at the start is seen."""
 
 
 def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Figure:
@@ -41,20 +47,45 @@ def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Fi
 
 
 def draw_lyapunov(ax: Axes, certificate: Certificate, audit: Audit | None) -> None:
-    """The bound of V from the start of the ideal run, or of the scenario; V of both runs."""
-    t = np.linspace(0.0, float(certificate.edges[-1]), SAMPLES)
-    start = float(audit.ideal[0]) if audit and audit.ideal.size else None
-    limit = bound(certificate, t, start) if np.isfinite(certificate.rates).all() else np.full(t.shape, np.nan)
-    ax.plot(t, limit, color=COLOURS[6], linewidth=1.4, label="certified bound")
-    highest = float(np.nanmax(limit, initial=0.0))
+    """The bounds of V and of V1 + V2 from the start of the ideal run, or of the scenario; V of both runs."""
+    if np.isfinite(certificate.rates).all():
+        t = audit.time if audit else np.linspace(0.0, float(certificate.edges[-1]), SAMPLES)
+        of_v, of_cable = (
+            (audit.bound, audit.cable_bound) if audit else (bound(certificate, t), cable_bound(certificate, t))
+        )
+        ax.plot(t, of_v, color=COLOURS[6], linewidth=1.4, label="bound of V")
+        ax.plot(t, of_cable, color=COLOURS[6], linewidth=1.2, linestyle=":", label="bound of V1 + V2")
     if audit:
-        ax.plot(audit.real_time, audit.real, color=COLOURS[1], linewidth=1.2, label="the run as it is")
-        ax.plot(audit.time, audit.ideal, color=COLOURS[0], linewidth=1.2, linestyle="--", label="ideal loop")
-        highest = max(highest, float(audit.ideal.max(initial=0.0)))
-    if highest > 0.0:
-        ax.set_yscale("log")
-        ax.set_ylim(highest * 10.0**-DECADES, highest * 10.0)
+        _draw_runs(ax, audit)
+    _fit(ax)
     _finish(ax, CERTIFICATE["lyapunov"].meaning, "$V$ [J]")
+
+
+def _draw_runs(ax: Axes, audit: Audit) -> None:
+    """V of both runs; the real one starts at a dot, because it may fall from there faster than the eye can follow."""
+    start = {"marker": "o", "markevery": [0], "markersize": 5.0}
+    ax.plot(audit.real_time, audit.real, color=COLOURS[1], linewidth=1.2, label="V, the run as it is", **start)
+    ax.plot(audit.time, audit.ideal, color=COLOURS[0], linewidth=1.2, linestyle="--", label="V, ideal loop")
+    ax.plot(
+        audit.time,
+        audit.cable,
+        color=COLOURS[2],
+        linewidth=1.0,
+        linestyle="-.",
+        label="V1 + V2, ideal loop",
+        zorder=1.5,
+    )
+
+
+def _fit(ax: Axes) -> None:
+    """Decades around all that is drawn, but for what rises from nothing, and at most :data:`DECADES`."""
+    drawn = np.concatenate([np.zeros(0), *(np.asarray(line.get_ydata(), dtype=np.float64) for line in ax.lines)])
+    seen = drawn[np.isfinite(drawn) & (drawn > 0.0)]
+    if seen.size:
+        highest = float(seen.max())
+        lowest = max(float(np.quantile(seen, RARE)), highest * 10.0**-DECADES)
+        ax.set_yscale("log")
+        ax.set_ylim(lowest / ROOM, highest * ROOM)
 
 
 def draw_rates(ax: Axes, certificate: Certificate) -> None:
@@ -85,7 +116,10 @@ def draw_margins(ax: Axes, certificate: Certificate) -> None:
 def _finish(ax: Axes, title: str, label: str) -> None:
     ax.set_title(title, fontsize=9.5, loc="left")
     ax.set_ylabel(label)
-    ax.margins(x=0.0)
+    ax.margins(x=EDGE)
     ax.grid(alpha=0.25, linewidth=0.6)
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(fontsize=8, ncols=4, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(
+            fontsize=8, ncols=ONE_ROW, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2
+        )

@@ -7,8 +7,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umbilical.analysis.certificate import Certificate, bound, certify
-from umbilical.analysis.certificate.lyapunov import boundary_function, boundary_rates, cable_function, cable_rates
+from umbilical.analysis.certificate import Certificate, Start, Weights, bound, cable_bound, certify
+from umbilical.analysis.certificate.lyapunov import (
+    boundary_function,
+    boundary_rates,
+    cable_function,
+    cable_rates,
+    law_error,
+)
 from umbilical.engine.simulate import simulate
 from umbilical.run import Run
 from umbilical.scenario.scenario import Scenario
@@ -32,6 +38,8 @@ class Audit:
         time: samples of the ideal run, s, shape (samples,).
         ideal: V of the ideal run, J, shape (samples,).
         bound: its certified bound from the same start, J, shape (samples,).
+        cable: V1 + V2 of the ideal run, J, shape (samples,).
+        cable_bound: its sharper bound from the same start, which the bounds in metres are made of, J, same shape.
         real_time, real: samples of the real run, s, and its V, J, with the same weights.
         identity: largest distance between V of the ideal run and the time integral of its exact rate, over the
             largest V; what sampling, grid and the quadrature leave open. Not a number without disturbance observer.
@@ -43,6 +51,8 @@ class Audit:
     time: np.ndarray
     ideal: np.ndarray
     bound: np.ndarray
+    cable: np.ndarray
+    cable_bound: np.ndarray
     real_time: np.ndarray
     real: np.ndarray
     identity: float
@@ -51,6 +61,11 @@ class Audit:
     def excess(self) -> float:
         """Largest V of the ideal run over its bound; the certificate is refuted where it is above 1."""
         return largest_ratio(self.ideal, self.bound)
+
+    @property
+    def cable_excess(self) -> float:
+        """The same for V1 + V2."""
+        return largest_ratio(self.cable, self.cable_bound)
 
     @property
     def real_excess(self) -> float:
@@ -81,9 +96,19 @@ def audit(scenario: Scenario, *, progress: Callable[[float], None] | None = None
     real_run = simulate(actual, progress=lambda share: tell(0.5 + 0.5 * share))
     time, value = lyapunov(ideal_run, certificate)
     real_time, real = lyapunov(real_run, certificate)
-    limit = bound(certificate, time, float(value[0]) if value.size else 0.0)
-    identity = identity_residual(ideal_run, certificate, value)
-    return Audit(certificate, ideal_run, real_run, time, value, limit, real_time, real, identity)
+    return Audit(
+        certificate=certificate,
+        ideal_run=ideal_run,
+        real_run=real_run,
+        time=time,
+        ideal=value,
+        bound=bound(certificate, time, float(value[0]) if value.size else 0.0),
+        cable=cable_function(ideal_run.scenario, _read(ideal_run), certificate.weights),
+        cable_bound=cable_bound(certificate, time, first_of(ideal_run)),
+        real_time=real_time,
+        real=real,
+        identity=identity_residual(ideal_run, certificate, value),
+    )
 
 
 def ideal_loop(scenario: Scenario) -> Scenario:
@@ -110,10 +135,23 @@ def sampled_finely(scenario: Scenario) -> Scenario:
 
 def lyapunov(run: Run, certificate: Certificate) -> tuple[np.ndarray, np.ndarray]:
     """Instants, s, and V with gam = 1, J, of a run, with the certificate's weights."""
-    read = {name: run[name].values for name in _READ}
-    weights = certificate.weights
+    read, weights = _read(run), certificate.weights
     cable = cable_function(run.scenario, read, weights)
     return read["time"], cable + boundary_function(run.scenario, read, weights)
+
+
+def first_of(run: Run) -> Start:
+    """Where a run starts, as its first sample has it."""
+    read = _read(run)
+    if not read["time"].size:
+        return Start(0.0, 0.0, 0.0)
+    cable = cable_function(run.scenario, read, Weights(0.0, 0.0, 0.0))  # at rest V2 is 0
+    missed = read["disturbance"] - read["disturbance_estimate"]
+    return Start(*(float(values[0]) for values in (cable, law_error(run.scenario, read), missed)))
+
+
+def _read(run: Run) -> dict[str, np.ndarray]:
+    return {name: run[name].values for name in _READ}
 
 
 def identity_residual(run: Run, certificate: Certificate, value: np.ndarray) -> float:
@@ -123,7 +161,7 @@ def identity_residual(run: Run, certificate: Certificate, value: np.ndarray) -> 
     observer = run.scenario.control.disturbance_observer
     if observer is None or not observer.enabled or value.size < 2:
         return float("nan")
-    read = {name: run[name].values for name in _READ}
+    read = _read(run)
     terms = cable_rates(run.scenario, read, certificate.weights)
     terms |= boundary_rates(run.scenario, read, certificate.weights)
     gained = cumulative_trapezoid(sum(terms.values()), read["time"], initial=0.0)

@@ -3,12 +3,14 @@
 The theory is docs/certificates.md. ``search.py`` finds numbers, ``proof.py`` verifies them without it.
 """
 
-from umbilical.analysis.certificate.bounds import bound, displacement_bound, lyapunov_of
+from umbilical.analysis.certificate.bounds import bound, lyapunov_of
 from umbilical.analysis.certificate.cable_bound import cable_bound
 from umbilical.analysis.certificate.certify import certify
+from umbilical.analysis.certificate.metres import Bounds, displacement_bound, largest_bounds
 from umbilical.analysis.certificate.records import Certificate, Inequality, Proof, Start, Weights
 
 __all__ = [
+    "Bounds",
     "Certificate",
     "Inequality",
     "Proof",
@@ -18,5 +20,6 @@ __all__ = [
     "cable_bound",
     "certify",
     "displacement_bound",
+    "largest_bounds",
     "lyapunov_of",
 ]

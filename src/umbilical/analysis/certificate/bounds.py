@@ -1,4 +1,4 @@
-"""What a certificate says in metres: V at the start, its bound over the run, and the displacement it allows."""
+"""What follows from a certificate for V: its start, the residual that loads leave, and its bound over the run."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.certificate.loads import Loads
-from umbilical.analysis.certificate.records import Certificate, Start, Weights
-from umbilical.analysis.certificate.setting import Loop, Motion
+from umbilical.analysis.certificate.ranges import ROUNDING
+from umbilical.analysis.certificate.records import Certificate, Ranges, Start, Weights
+from umbilical.analysis.certificate.setting import Loop
 from umbilical.plant import signals, winch
 from umbilical.plant.signals import spline
 from umbilical.relations.formulas import tension
@@ -28,7 +29,7 @@ class Residual(NamedTuple):
     cable: float
 
 
-def residual_of(loop: Loop, motion: Motion, weights: Weights, rate: float, loads: Loads) -> Residual:
+def residual_of(loop: Loop, ranges: Ranges, weights: Weights, rate: float, loads: Loads) -> Residual:
     """What bounded loads leave of the decay.
 
     Half the rate pays for loads along the cable, if there are any: that makes their share of the final bound
@@ -38,7 +39,7 @@ def residual_of(loop: Loop, motion: Motion, weights: Weights, rate: float, loads
     of_cable = 0.0
     if loads.cable:
         of_cable = loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
-    of_cable += _of_vessel(loop, motion, weights, loads.vessel_velocity)
+    of_cable += _of_vessel(loop, ranges, weights, loads.vessel_velocity)
     if loop.k_s is None:
         of_law = weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
     else:
@@ -46,14 +47,17 @@ def residual_of(loop: Loop, motion: Motion, weights: Weights, rate: float, loads
     return Residual(spent, of_cable + of_law, of_cable)
 
 
-def _of_vessel(loop: Loop, motion: Motion, weights: Weights, velocity: float) -> float:
+def _of_vessel(loop: Loop, ranges: Ranges, weights: Weights, velocity: float) -> float:
     if velocity == 0.0:
         return 0.0
-    pays = motion.v + weights.vessel
+    slowest, fastest = ranges.speed
+    pays = slowest + weights.vessel
     if not pays.min() > 0.0:
         return float("inf")
-    pull = tension(motion.l, loop.g - motion.a, loop.m, loop.hanging) - loop.rho * motion.v**2
-    return float((pull / (2.0 * pays) + 0.5 * loop.rho * (motion.v - weights.vessel)).max()) * velocity**2
+    least = np.clip(0.0, slowest, fastest)  # the smallest |v| of each piece
+    pull = tension(ranges.length.high, ranges.net.high, loop.m, loop.hanging) - loop.rho * least**2
+    largest = float((pull / (2.0 * pays) + 0.5 * loop.rho * (fastest - weights.vessel)).max())
+    return (1.0 + ROUNDING) * largest * velocity**2
 
 
 def start_of(loop: Loop, scenario: Scenario) -> Start:
@@ -95,21 +99,23 @@ def _gaussian_slope(shape: GaussianShape, above: np.ndarray) -> np.ndarray:
     return 2.0 * shape.amplitude * q * np.exp(-q * q) / shape.width
 
 
-def reach_of(loop: Loop, motion: Motion, weights: Weights, sigma: float) -> float:
+def reach_of(loop: Loop, ranges: Ranges, weights: Weights, sigma: float) -> float:
     """Bound of ``|y - e|/sqrt(V)`` at ``x = sigma l``, m/sqrt(J), the largest over the run.
 
     ``V1 + V2 >= 1/2 int (T - rho Q^2) p^2``, what is left when W is chosen worst, and by Cauchy and Schwarz
-    ``(y - e)^2 <= int p^2 (T - rho Q^2) int 1/(T - rho Q^2)``. The integrand is convex, so the trapezoid rule
-    errs upward.
+    ``(y - e)^2 <= int p^2 (T - rho Q^2) int 1/(T - rho Q^2)``. In each piece of time T is taken smallest and Q
+    largest; the integrand is convex, so the trapezoid rule errs upward.
     """
     share = np.linspace(0.0, sigma, POINTS + 1)
-    length = motion.l.ravel()[:, None]
-    x = share * length
-    left = tension(length - x, loop.g - motion.a.ravel()[:, None], loop.m, loop.hanging)
-    left = left - loop.rho * (weights.vessel + weights.cross * x) ** 2
+    shortest, longest, lightest = (part.ravel()[:, None] for part in (*ranges.length, ranges.net.low))
+    pull = tension((1.0 - share) * shortest, lightest, loop.m, loop.hanging)
+    left = (1.0 - ROUNDING) * pull - (1.0 + ROUNDING) * loop.rho * (
+        weights.vessel + weights.cross * share * longest
+    ) ** 2
     if not left.min() > 0.0:
         return float("inf")
-    return float(np.sqrt(2.0 * np.trapezoid(1.0 / left, x, axis=1).max()))
+    integral = longest.ravel() * np.trapezoid(1.0 / left, share, axis=1)
+    return (1.0 + ROUNDING) * float(np.sqrt(2.0 * integral.max()))
 
 
 def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -> np.ndarray:
@@ -148,12 +154,3 @@ def _advance(certificate: Certificate, value: float, begin: float, end: float, p
     rate, dt = float(certificate.rates[slab]) - certificate.spent, end - begin
     gained = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
     return value * float(np.exp(-rate * dt)) + (power * gained if power else 0.0)
-
-
-def displacement_bound(certificate: Certificate, v_bound: float) -> tuple[float, float]:
-    """Bound of |y| at the middle of the cable and at the ROV, m, where V, or V1 + V2, is at most ``v_bound``, J.
-
-    The bound grows from the vessel to the ROV, so the second one holds for the whole cable.
-    """
-    middle, tip = (reach * float(np.sqrt(v_bound)) + certificate.loads.vessel for reach in certificate.reach)
-    return middle, tip

@@ -5,7 +5,7 @@ mixes both and lets loads at the ROV act for as long as the cable rings; boundin
 
     (V1 + V2)' <= -(th - spent)(V1 + V2) + T_l/(2 beta) u_a^2 + residual of the cable
 
-does not. The rates are the proved ones; the time integrals here are ordinary arithmetic on a fine grid.
+does not. The rates are the proved ones; in each step u_a and T_l are held at what they cannot exceed in it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ import numpy as np
 from umbilical.analysis.certificate.loads import Loads
 from umbilical.analysis.certificate.records import Certificate, Start
 from umbilical.analysis.certificate.setting import Loop
-from umbilical.plant import winch
 
 FEWEST, MOST = 4000, 100_000
 STEPS_PER_TIME = 20.0
@@ -33,48 +32,94 @@ def cable_bound(certificate: Certificate, t: np.ndarray, start: Start | None = N
         start: where the run starts; the scenario's own start if left out.
     """
     loop, begin = certificate.loop, certificate.start if start is None else start
-    grid = np.unique(np.concatenate([_grid(loop, float(certificate.edges[-1])), certificate.edges]))
-    error = error_bound(loop, grid, begin, certificate.loads)
-    pull = loop.m * (loop.g - winch.evaluate(certificate.scenario.winch, grid).acceleration)
-    power = np.maximum(pull[:-1], pull[1:]) / (2.0 * loop.beta) * np.maximum(error[:-1], error[1:]) ** 2
-    values = np.array([begin.cable, *_march(certificate, grid, power + certificate.cable_residual, begin.cable)])
-    return np.interp(t, grid, values)
+    grid = np.union1d(instants_of(certificate), t)
+    slab = np.searchsorted(certificate.edges, grid[:-1], side="right") - 1
+    pull = loop.m * certificate.ranges.net.high.max(axis=1)[slab]
+    fed = pull / (2.0 * loop.beta) * error_bound(loop, grid, begin, certificate.loads) ** 2
+    power = fed + certificate.cable_residual
+    values = np.array([begin.cable, *_march(certificate, grid, slab, power, begin.cable)])
+    return values[np.searchsorted(grid, t)]
+
+
+def instants_of(certificate: Certificate) -> np.ndarray:
+    """The steps of the bound, s: between them it has no turning point. Every jump of winch and force is among them."""
+    loop, duration = certificate.loop, float(certificate.edges[-1])
+    fastest = loop.k_a / loop.m + (loop.k_s or 0.0)
+    count = int(np.clip(STEPS_PER_TIME * fastest * duration, FEWEST, MOST))
+    jumps = [instant for instant, _ in certificate.loads.force_jumps if 0.0 < instant < duration]
+    return np.unique(np.concatenate([np.linspace(0.0, duration, count + 1), certificate.edges, jumps]))
 
 
 def error_bound(loop: Loop, t: np.ndarray, start: Start, loads: Loads) -> np.ndarray:
-    """Bound of |u_a| on an even-spaced or refined grid from 0, m/s, shape of ``t``."""
+    """Bound of |u_a| over each step of a grid from 0, m/s, shape (steps,); jumps of the force lie on the grid."""
     if loop.k_s is None:
         fade = np.exp(-2.0 * loop.k_a / loop.m * t)  # all of k_a: loop.k_a is the half that is left to V
-        return fade * abs(start.error) + (1.0 - fade) * loads.force / (2.0 * loop.k_a)
-    of_error, of_missed = responses(loop, t)
-    area = np.concatenate([[0.0], np.cumsum(np.maximum(abs(of_missed[1:]), abs(of_missed[:-1])) * np.diff(t))])
-    bound = abs(of_error * start.error + of_missed * start.missed) + area * loads.force_rate
+        level = fade * abs(start.error) + (1.0 - fade) * loads.force / (2.0 * loop.k_a)
+        return np.maximum(level[:-1], level[1:])
+    ends, bulge = _ends_and_bulge(loop, t, 0.0, 1.0)
+    area = np.cumsum(np.diff(t) * (0.5 * (ends[:-1] + ends[1:]) + bulge * 2.0 / 3.0))
+    bound = _largest(loop, t, start.error, start.missed) + area * loads.force_rate
     for instant, size in loads.force_jumps:
-        after = t >= instant
-        if instant > 0.0:
-            bound[after] += abs(responses(loop, t[after] - instant)[1]) * size
+        if 0.0 < instant < t[-1]:
+            first = int(np.searchsorted(t, instant))
+            bound[first:] += _largest(loop, t[first:] - instant, 0.0, size)
     return bound
+
+
+def _largest(loop: Loop, t: np.ndarray, error: float, missed: float) -> np.ndarray:
+    """Bound of |u_a| over each step after a start of u_a, m/s, and D~, N, shape (steps,)."""
+    ends, bulge = _ends_and_bulge(loop, t, error, missed)
+    return np.maximum(ends[:-1], ends[1:]) + bulge
+
+
+def _ends_and_bulge(loop: Loop, t: np.ndarray, error: float, missed: float) -> tuple[np.ndarray, np.ndarray]:
+    """|u_a| at all ends of steps, and by how much it may exceed the line between two of them: ``h^2/8 sup |u_a''|``."""
+    of_error, of_missed = responses(loop, t)
+    curved = np.minimum(_curvature_by_length(loop, t[:-1], error, missed), _curvature(loop, t[:-1], error, missed))
+    return abs(of_error * error + of_missed * missed), np.diff(t) ** 2 / 8.0 * curved
+
+
+def _curvature(loop: Loop, t: np.ndarray, error: float, missed: float) -> np.ndarray:
+    """Bound of |u_a''| from t on, m/s3, mode by mode; without a bound where the two are the same."""
+    mean, spread = _poles(loop)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        apart = ((-loop.k_a / loop.m - mean) * error + missed / loop.m) / (2.0 * spread)
+        parts = [
+            abs(0.5 * error + sign * apart) * abs(mean + sign * spread) ** 2 * np.exp((mean + sign * spread).real * t)
+            for sign in (1.0, -1.0)
+        ]
+    return np.nan_to_num(parts[0] + parts[1], nan=np.inf, posinf=np.inf)
+
+
+def _curvature_by_length(loop: Loop, t: np.ndarray, error: float, missed: float) -> np.ndarray:
+    """The same for any modes: with D~ in the unit ``sqrt(k_s vs m)`` the law is ``z' = A z``, A its two rates and a
+    turn, so the length of z decays at the smaller rate, and ``|u_a''| <= |A|^2 |z|``."""
+    assert loop.k_s is not None
+    rates, turn = (loop.k_a / loop.m, loop.k_s), np.sqrt(loop.k_s * loop.vs / loop.m)
+    length = np.hypot(error, missed / np.sqrt(loop.k_s * loop.vs * loop.m))
+    return (max(rates) + turn) ** 2 * length * np.exp(-min(rates) * t)
 
 
 def responses(loop: Loop, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """u_a at t after a unit start of u_a, and after one of D~ (m/s per N): the first row of ``exp(A t)``."""
-    assert loop.k_s is not None
-    a, d = -loop.k_a / loop.m, -loop.k_s
-    mean, spread = 0.5 * (a + d), np.sqrt(0.25 * (a - d) ** 2 - loop.k_s * loop.vs / loop.m + 0j)
+    mean, spread = _poles(loop)
     fast, slow = np.exp((mean - spread) * t), np.exp((mean + spread) * t)
     apart = abs(spread) > 1e-9 * abs(mean)
     ramp = (slow - fast) / (2.0 * spread) if apart else t * slow
-    return (0.5 * (slow + fast) + (a - mean) * ramp).real, (ramp / loop.m).real
+    return (0.5 * (slow + fast) + (-loop.k_a / loop.m - mean) * ramp).real, (ramp / loop.m).real
 
 
-def _grid(loop: Loop, duration: float) -> np.ndarray:
-    fastest = loop.k_a / loop.m + (loop.k_s or 0.0)
-    return np.linspace(0.0, duration, int(np.clip(STEPS_PER_TIME * fastest * duration, FEWEST, MOST)) + 1)
+def _poles(loop: Loop) -> tuple[float, np.complex128]:
+    """Mean of the law's two poles, 1/s, and half of their distance."""
+    assert loop.k_s is not None
+    a, d = -loop.k_a / loop.m, -loop.k_s
+    return 0.5 * (a + d), np.sqrt(np.complex128(0.25 * (a - d) ** 2 - loop.k_s * loop.vs / loop.m))
 
 
-def _march(certificate: Certificate, grid: np.ndarray, power: np.ndarray, value: float) -> Iterator[float]:
+def _march(
+    certificate: Certificate, grid: np.ndarray, slab: np.ndarray, power: np.ndarray, value: float
+) -> Iterator[float]:
     """V1 + V2 at the end of each step: the solution for a power that is held over it."""
-    slab = np.searchsorted(certificate.edges, grid[:-1], side="right") - 1
     rate, dt = certificate.rates[slab] - certificate.spent, np.diff(grid)
     fade = np.exp(-rate * dt)
     gained = power * np.where(rate == 0.0, dt, -np.expm1(-rate * dt) / np.where(rate == 0.0, 1.0, rate))

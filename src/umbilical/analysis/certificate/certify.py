@@ -2,36 +2,21 @@
 
 from __future__ import annotations
 
-import numpy as np
-
+from umbilical.analysis.certificate.attempt import Task, attempt
 from umbilical.analysis.certificate.bounds import reach_of, residual_of, start_of
-from umbilical.analysis.certificate.conditions import (
-    SLACK,
-    boundary_weight,
-    conditions,
-    extent,
-    rate_limit,
-    rates,
-    relative_margins,
-    tightest,
-)
+from umbilical.analysis.certificate.conditions import conditions, relative_margins, tightest
 from umbilical.analysis.certificate.cure import best_rate, cures
 from umbilical.analysis.certificate.loads import loads_of
 from umbilical.analysis.certificate.paper_conditions import paper_conditions
-from umbilical.analysis.certificate.proof import prove
-from umbilical.analysis.certificate.records import Certificate, Proof, Weights
-from umbilical.analysis.certificate.search import best_weights
-from umbilical.analysis.certificate.setting import Loop, Motion, loop_of, sampled, slab_edges, stopped
+from umbilical.analysis.certificate.ranges import ranges_of, stretch_of
+from umbilical.analysis.certificate.records import Certificate
+from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
 from umbilical.analysis.ideal_loop import energy_rate
-from umbilical.relations.formulas import tension
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
 
-ATTEMPTS = 4
-"""Times a slab's rate is lowered until it can be proved."""
 
-
-def certify(scenario: Scenario) -> Certificate:
+def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
     """Prove how fast the ideal loop of a scenario calms down, over its whole run.
 
     The ideal loop knows Dy/Dt and the rate of the slope at the ROV, acts continuously, and its thrusters deliver what
@@ -39,6 +24,7 @@ def certify(scenario: Scenario) -> Certificate:
 
     Args:
         scenario: with the boundary law.
+        cure: whether to look for gains that mend what does not hold, which takes longer than all the rest.
 
     Returns:
         The certificate. One that does not hold is a result, too: ``broken`` and ``cures`` say why and what to do.
@@ -54,14 +40,13 @@ def certify(scenario: Scenario) -> Certificate:
     loop = loop_of(scenario)
     edges = slab_edges(scenario.winch, scenario.duration)
     motion = sampled(scenario.winch, scenario.environment.gravity, edges)
-    loads = loads_of(scenario.environment, float(motion.l.max()))
-    moves = loads.vessel_velocity > 0.0
-    found = best_weights(loop, motion, vessel_moves=moves)
-    weights, wanted = _choice(loop, motion, found)
-    proved, proof = _proved(loop, scenario, edges, wanted, weights, moves)
-    rate = float(proved.min())
-    spent, residual, cable_residual = residual_of(loop, motion, weights, rate, loads)
-    stated = conditions(loop, motion, weights, float(np.nan_to_num(proved).max()), moves)
+    ranges = ranges_of(scenario.winch, loop.g, edges)
+    loads = loads_of(scenario.environment, float(ranges.length.high.max()))
+    task = Task(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
+    found = attempt(loop, task)
+    weights, proved, proof = found
+    spent, residual, cable_residual = residual_of(loop, ranges, weights, float(proved.min()), loads)
+    stated = conditions(loop, motion, weights, proved, task.vessel_moves)
     return Certificate(
         scenario=scenario,
         inequalities=tuple(tightest(condition, motion) for condition in stated),
@@ -71,7 +56,8 @@ def certify(scenario: Scenario) -> Certificate:
         weights=weights,
         edges=edges,
         rates=proved,
-        stretch=_stretch(loop, motion, weights),
+        stretch=stretch_of(loop, scenario.winch, weights, edges),
+        ranges=ranges,
         fixed_length_rate=best_rate(loop, stopped(motion)),
         exact_rate=energy_rate(loop, float(motion.l.max())),
         loads=loads,
@@ -79,51 +65,11 @@ def certify(scenario: Scenario) -> Certificate:
         residual=residual,
         cable_residual=cable_residual,
         start=start_of(loop, scenario),
-        reach=(reach_of(loop, motion, weights, 0.5), reach_of(loop, motion, weights, 1.0)),
+        reach=(reach_of(loop, ranges, weights, 0.5), reach_of(loop, ranges, weights, 1.0)),
         proof=proof,
-        cures=() if rate > 0.0 else cures(loop, motion),
+        cures=cures(loop, task) if cure and not found.certified else (),
         limits=_limits(scenario),
     )
-
-
-def _choice(loop: Loop, motion: Motion, found: tuple[float, float] | None) -> tuple[Weights, np.ndarray]:
-    """All weights, and the rate to prove in each slab; where there is no room, numbers that show what is missing."""
-    if found is None:
-        room = extent(loop, motion)
-        cross, vessel = SLACK * float(room.reach.min()) / float(motion.l.max()), room.least_vessel
-        return Weights(cross, vessel, boundary_weight(loop, motion, 0.0)), np.full(motion.t.shape[0], np.nan)
-    sampled_rates = rates(loop, motion, *found).min(axis=1)
-    capped = np.minimum(sampled_rates, rate_limit(loop))
-    wanted = capped - SLACK * np.abs(capped).max()
-    return Weights(*found, boundary_weight(loop, motion, float(wanted.max()))), wanted
-
-
-def _proved(
-    loop: Loop, scenario: Scenario, edges: np.ndarray, wanted: np.ndarray, weights: Weights, moves: bool
-) -> tuple[np.ndarray, Proof]:
-    """Rates that interval arithmetic confirms; a slab that resists is tried again a little lower."""
-    claimed, step = wanted, 4.0 * SLACK * np.abs(wanted).max()
-    for _ in range(ATTEMPTS):
-        proof = prove(loop, scenario.winch, edges, claimed, weights, moves)
-        late = {int(np.searchsorted(edges, begin, side="right")) - 1 for name, begin, _ in proof.open if name == "K5"}
-        if proof.holds or not late or not np.isfinite(step):
-            break
-        claimed = np.where(np.isin(np.arange(claimed.size), list(late)), claimed - step, claimed)
-        step *= 2.0
-    return claimed, proof
-
-
-def _stretch(loop: Loop, motion: Motion, weights: Weights) -> np.ndarray:
-    """Largest growth of V where the tension jumps with the winch's acceleration, at each edge.
-
-    ``N_after <= k N_before`` for all x with ``k = 1 + (r - 1)/(1 - rho Q^2/T)``, r the ratio of the tensions; the
-    bracket is smallest at the ROV.
-    """
-    net_before, net_after = loop.g - motion.a[:-1, -1], loop.g - motion.a[1:, 0]
-    pull = tension(0.0 * net_before, net_before, loop.m, loop.hanging)
-    share = loop.rho * (weights.vessel + weights.cross * motion.l[1:, 0]) ** 2 / pull
-    growth = 1.0 + np.maximum(net_after / net_before - 1.0, 0.0) / np.maximum(1.0 - share, 1e-300)
-    return np.concatenate([[1.0], np.where(net_after > net_before * (1.0 + 1e-12), growth, 1.0), [1.0]])
 
 
 def _limits(scenario: Scenario) -> tuple[str, ...]:

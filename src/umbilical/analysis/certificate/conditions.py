@@ -107,23 +107,20 @@ class Condition(NamedTuple):
 
 
 def conditions(
-    loop: Loop, motion: Motion, weights: Weights, rate: float, vessel_moves: bool = False
+    loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool = False
 ) -> tuple[Condition, ...]:
-    """K0 to K6 at every sample; ``rate`` is the largest th of the run, which K6 must carry.
-
-    K4 must hold strictly where the vessel moves.
-    """
+    """K0 to K6 at every sample, for the proved rate of each slab; K4 must hold strictly where the vessel moves."""
     shape = motion.t.shape
     return tuple(
         Condition(
             name, text, np.broadcast_to(left, shape), np.broadcast_to(right, shape), unit, sigma, "<=" not in text
         )
-        for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, rate, vessel_moves)
+        for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, proved, vessel_moves)
     )
 
 
 def _conditions(
-    loop: Loop, motion: Motion, weights: Weights, rate: float, vessel_moves: bool
+    loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool
 ) -> Iterator[tuple[Any, ...]]:
     lam, offset, eta = weights
     reach, speed_squared = offset + lam * motion.l, _wave_speed_squared(loop, motion)
@@ -131,6 +128,7 @@ def _conditions(
     pull = loop.rho * speed_squared
     ends = [_rate_at(loop, motion, lam, offset, end) for end in (0.0, 1.0)]
     tighter = float(ends[1].min() < ends[0].min())
+    rate = float(np.nan_to_num(proved).max())
     carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
     yield "wave", "v^2 < T_0/rho", motion.v**2, top_squared, "m2/s2", 0.0
     yield "K0", "lam q/gam < sqrt(T/rho)", reach, np.sqrt(speed_squared), "m/s", 1.0
@@ -138,10 +136,16 @@ def _conditions(
     yield "K2", "lam (l + x0)/gam <= beta", reach, loop.beta, "m/s", 1.0
     yield "K3", "T_l/(2 beta) < eta k_a/gam", pull / (2.0 * loop.beta), eta * loop.k_a, "N s/m", 1.0
     yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - motion.v, offset, "m/s", 0.0
-    yield "K5", "0 < th with M - th/2 N >= 0", 0.0, ends[int(tighter)], "1/s", tighter
+    yield "K5", "0 < th with M - th/2 N >= 0", 0.0, _lowered(np.minimum(*ends), proved), "1/s", tighter
     yield "K6", "th <= 2 (eta k_a - gam T_l/(2 beta))/(eta m)", rate, carried, "1/s", 1.0
     if loop.k_s is not None:
         yield "K6", "th <= k_s", rate, loop.k_s, "1/s", 1.0
+
+
+def _lowered(sampled: Array, proved: Array) -> Array:
+    """The samples of th, lowered in each slab until the least of them is the rate that was proved, if any was."""
+    excess = np.where(np.isfinite(proved), sampled.min(axis=1) - proved, 0.0)
+    return sampled - excess[:, None]
 
 
 def tightest(condition: Condition, motion: Motion) -> Inequality:

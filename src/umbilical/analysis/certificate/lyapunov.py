@@ -76,7 +76,7 @@ def cable_function(scenario: Scenario, run: Mapping[str, Array], weights: Weight
 
 def boundary_function(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> Array:
     """V3 with gam = 1 at every stored sample, J, shape (time,); from the true u_a, not the observer's."""
-    observer, error = scenario.control.disturbance_observer, _error(scenario, run)
+    observer, error = scenario.control.disturbance_observer, law_error(scenario, run)
     value = scenario.payload.mass * error**2
     if observer is not None and observer.enabled:
         missed = np.asarray(run["disturbance"]) - np.asarray(run["disturbance_estimate"])
@@ -125,7 +125,7 @@ def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weight
     assert isinstance(law, BoundaryLaw)
     assert observer is not None
     eta, k_s, vs = weights.boundary, observer.gain, observer.coupling
-    error = _error(scenario, run)
+    error = law_error(scenario, run)
     missed = np.asarray(run["disturbance"]) - np.asarray(run["disturbance_estimate"])
     force_rate = signals.derivative(scenario.environment.payload_force, np.asarray(run["time"]))
     return {
@@ -135,8 +135,8 @@ def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weight
     }
 
 
-def _error(scenario: Scenario, run: Mapping[str, Array]) -> Array:
-    """The true u_a, m/s."""
+def law_error(scenario: Scenario, run: Mapping[str, Array]) -> Array:
+    """The true u_a, m/s, shape (time,)."""
     law = scenario.control.law
     assert isinstance(law, BoundaryLaw)
     return np.asarray(run["tip_velocity"]) + law.slope_gain * np.asarray(run["tip_slope"])

@@ -111,6 +111,11 @@ def _verdict(name: str, box: Box, strict: bool) -> bool | None:
     return True if all(value.a > 0 if above else value.a >= 0 for value in values) else None
 
 
+def _weights(b: Box) -> Iterator[Interval]:
+    """lam, eta and everything else that makes V a sum of squares; K0 then makes V1 + V2 one."""
+    yield from (b.n[name] for name in ("rho", "m", "beta", "k_a", "k_s", "vs", "cross", "boundary") if name in b.n)
+
+
 def _wave(b: Box) -> Iterator[Interval]:
     yield b.net
     yield b.pull_top - b.n["rho"] * b.v**2
@@ -137,13 +142,14 @@ def _k4(b: Box) -> Iterator[Interval]:
 
 
 def _k5(b: Box) -> Iterator[Interval]:
-    """The entries of M - th/2 N: A does not depend on x, B and C are lines; A >= 0 and AC - B^2 >= 0."""
+    """The entries of M - th/2 N: A does not depend on x, B and C are lines; A, C and AC - B^2 must not be negative."""
     n, rho, lam = b.n, b.n["rho"], b.n["cross"]
     corner = n["c"] + rho * (lam - b.rate) / 2
     yield corner
     side = [(q * (n["c"] - b.rate * rho) - rho * b.v * lam) / 2 for q in (n["vessel"], b.reach)]
     stiff = (lam - b.rate) * b.net + b.jerk
     far = [(mass * stiff + q * n["hanging"] * b.net) / 2 for mass, q in ((b.mass, n["vessel"]), (n["m"], b.reach))]
+    yield from far  # without them A = B = 0 would let any C pass
     yield from _bernstein((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
 
 
@@ -154,9 +160,12 @@ def _k6(b: Box) -> Iterator[Interval]:
         yield n["k_s"] - b.rate
 
 
-CONDITIONS = {"wave": _wave, "K0": _k0, "K1": _k1, "K2": _k2, "K3": _k3, "K4": _k4, "K5": _k5, "K6": _k6}
+CONDITIONS = {
+    "weights": _weights, "wave": _wave,
+    "K0": _k0, "K1": _k1, "K2": _k2, "K3": _k3, "K4": _k4, "K5": _k5, "K6": _k6,
+}  # fmt: skip
 """What must not be negative anywhere; coefficients of polynomials in x, intervals in t."""
-STRICT = ("wave", "K0", "K3")
+STRICT = ("weights", "wave", "K0", "K3")
 """Conditions that equality breaks."""
 
 

@@ -17,9 +17,12 @@ Interval = Any
 Motion = tuple[Interval, Interval, Interval, Interval]
 
 
-def motion_over(ctx: Any, winch: Winch, begin: float, end: float) -> Motion:
-    """Intervals of length, m, speed, m/s, acceleration, m/s2, and jerk, m/s3, from ``begin`` to ``end``, s."""
-    return _motion(winch, ctx, ctx.mpf([begin, end]), 0.5 * (begin + end))
+def motion_over(ctx: Any, winch: Winch, begin: float, end: float, middle: float | None = None) -> Motion:
+    """Intervals of length, m, speed, m/s, acceleration, m/s2, and jerk, m/s3, from ``begin`` to ``end``, s.
+
+    ``middle``, an instant beside a jump, says which side of it is meant where the interval is that one instant.
+    """
+    return _motion(winch, ctx, ctx.mpf([begin, end]), 0.5 * (begin + end) if middle is None else middle)
 
 
 @singledispatch

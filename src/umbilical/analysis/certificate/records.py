@@ -66,6 +66,27 @@ class Weights(NamedTuple):
     boundary: float
 
 
+class Span(NamedTuple):
+    """Bounds from below and above, arrays of one shape."""
+
+    low: np.ndarray
+    high: np.ndarray
+
+
+class Ranges(NamedTuple):
+    """What the winch does in every piece of time, proved by intervals; bounds of shape (slabs, pieces).
+
+    Attributes:
+        length: l, m.
+        speed: v, m/s.
+        net: g - a, m/s2.
+    """
+
+    length: Span
+    speed: Span
+    net: Span
+
+
 class Start(NamedTuple):
     """Where the scenario starts from.
 
@@ -85,7 +106,7 @@ class Proof(NamedTuple):
 
     Attributes:
         holds: every condition is proved for all x in [0, l(t)] and all t of the run.
-        boxes: intervals of time it took.
+        boxes: intervals of time it took; none where no weights were found that could be tried.
         open: what could not be proved, by name and interval of time, s.
     """
 
@@ -111,6 +132,7 @@ class Certificate:
         edges: instants between which the rate is constant, s, shape (slabs + 1,).
         rates: proved rate th of V in each slab, 1/s, shape (slabs,); not a number where nothing can be certified.
         stretch: factor V may grow by at each edge because the tension jumps there, shape (slabs + 1,).
+        ranges: length, speed and g - a over pieces of each slab, by intervals.
         fixed_length_rate: best rate with the winch stopped at its greatest length, 1/s, found but not proved.
         exact_rate: rate of V there by the exact eigenvalues of the ideal loop, 1/s.
         loads: suprema over the run of what acts from outside.
@@ -120,7 +142,7 @@ class Certificate:
         start: where the scenario starts from.
         reach: bound of ``|y - e|/sqrt(V)`` at the middle and at the ROV, m/sqrt(J), the largest over the run.
         proof: the independent verification.
-        cures: what would mend it, when it does not hold.
+        cures: what would mend it, when it does not hold and this was asked for.
         limits: what it does not speak about.
     """
 
@@ -133,6 +155,7 @@ class Certificate:
     edges: np.ndarray
     rates: np.ndarray
     stretch: np.ndarray
+    ranges: Ranges
     fixed_length_rate: float
     exact_rate: float
     loads: Loads
@@ -153,7 +176,7 @@ class Certificate:
     @property
     def holds(self) -> bool:
         """Whether V decays at a positive rate all along the run, and this was verified."""
-        return self.proof.holds and all(inequality.holds for inequality in self.inequalities)
+        return self.proof.holds and self.rate > 0.0 and all(inequality.holds for inequality in self.inequalities)
 
     @property
     def broken(self) -> tuple[Inequality, ...]:
