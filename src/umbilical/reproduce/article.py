@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator
+from hashlib import sha256
 
+from umbilical.admission import load
 from umbilical.report import (
     Html,
     Section,
     assumed_table,
+    code,
     drawing,
     element,
     given_table,
@@ -30,6 +33,8 @@ from umbilical.reproduce.ledger import Finding, Verdict
 from umbilical.reproduce.points import GRID
 from umbilical.reproduce.reproduction import KINDS, Reproduction
 
+HASH = 16
+"""Digits of the hash of a file that are shown."""
 CLASSES = {Verdict.HOLDS: "holds", Verdict.CONDITIONAL: "part", Verdict.FAILS: "fails"}
 
 
@@ -47,7 +52,7 @@ def article(found: Reproduction, moved: list[Deviation]) -> str:
         Section("assumed", "What is assumed", _assumed(found)),
         Section("runs", "What was run", _runs(found)),
         Section("errata", "Errata", _errata()),
-        Section("versions", "Versions", versions_table()),
+        Section("versions", "Versions", join([versions_table(), _hashes(found)])),
     )
     return page(
         "Vibration cascade control of a cable and its ROV: the paper, reproduced", _lead(found, moved), sections
@@ -73,7 +78,7 @@ def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
             ),
             paragraph(told, " ", check),
             *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),
-            *([] if found.maps else [paragraph("The maps were left out (--no-maps): verdicts rest on single runs.")]),
+            *([] if found.mapped else [paragraph("The maps were left out (--no-maps).")]),
         ]
     )
 
@@ -138,9 +143,12 @@ def _given(found: Reproduction) -> Html:
 
 
 def _assumed(found: Reproduction) -> Html:
-    scenario = found.runs[cell("stuck", "with")].scenario
-    words = paragraph("What the paper does not print had to be chosen. The reasons are those of the presets.")
-    return join([words, assumed_table(scenario, "Assumed for a stuck motor with fault control, which has them all")])
+    names = dict.fromkeys(EXPERIMENTS[name].preset for name in found.runs)
+    words = paragraph(
+        "What the paper does not print had to be chosen. The reasons are those of the presets: "
+        f"{', '.join(names)}. A later one is named only with what it adds."
+    )
+    return join([words, assumed_table([load(name) for name in names], "Assumed, in all presets that were run")])
 
 
 def _runs(found: Reproduction) -> Html:
@@ -152,6 +160,12 @@ def _rows(found: Reproduction) -> Iterator[tuple]:
         experiment = EXPERIMENTS[name]
         changes = ", ".join(f"{key} = {json.dumps(value)}" for key, value in experiment.changes.items())
         yield experiment.what, experiment.preset, changes, run
+
+
+def _hashes(found: Reproduction) -> Html:
+    rows = [(f"{one.picture.name}.nc", code(sha256(one.contents["nc"]).hexdigest()[:HASH])) for one in found.shown]
+    words = f"The first {HASH} digits of SHA-256; the same versions and scenarios give the same data, on any day"
+    return table(("file", "hash"), rows, caption=f"The data. {words}")
 
 
 def _errata() -> Html:

@@ -32,7 +32,7 @@ class Picture:
         caption: what is seen.
         draw: from its dataset to a figure.
         experiments: names of the runs it is made from.
-        collect: from these runs to its dataset; None where it shows a map, whose dataset has the figure's name.
+        collect: from these runs to its dataset; None where it shows a scan, whose dataset has the figure's name.
         faulty: experiment whose fault is marked.
     """
 
@@ -45,13 +45,13 @@ class Picture:
     faulty: str = ""
 
     @property
-    def mapped(self) -> bool:
-        """Whether it needs the maps."""
+    def scanned(self) -> bool:
+        """Whether it shows a map or the scan of the gain."""
         return self.collect is None
 
-    def data(self, runs: Runs, maps: Mapping[str, xarray.Dataset]) -> xarray.Dataset:
+    def data(self, runs: Runs, scans: Mapping[str, xarray.Dataset]) -> xarray.Dataset:
         """The dataset behind it, with title, source and the fault it marks."""
-        found = maps[self.name] if self.collect is None else self.collect(runs)
+        found = scans[self.name] if self.collect is None else self.collect(runs)
         marks: dict[str, Any] = datasets.about_fault(runs[self.faulty]) if self.faulty else {}
         about = {"title": f"{self.title}: {self.caption}", "source": SOURCE, "version_umbilical": __version__}
         return found.assign_attrs({**about, **marks})
