@@ -90,10 +90,11 @@ def test_the_whole_without_maps(umbilical, tmp_path, monkeypatch) -> None:
 @pytest.mark.browser
 @pytest.mark.skipif(browser.PROGRAM is None, reason="no Chromium on this machine")
 def test_a_browser_shows_the_report_in_silence(tmp_path) -> None:
-    found = reproduction.reproduce(maps=False)
+    """With the maps, at the widths of a phone, a tablet and a desk."""
+    found = reproduction.reproduce()
     report = tmp_path / "report.html"
     report.write_text(article(found, []), encoding="utf-8")
     assert browser.console(report) == []
-    for window in (500, 1280):
+    for window in (360, 500, 1280):
         assert browser.width(report, window) <= window
     assert browser.screenshot(report, tmp_path / "report.png", 500, dark=True).startswith(b"\x89PNG")

@@ -13,7 +13,7 @@ from umbilical.reproduce.article import article
 from umbilical.reproduce.errata import errata
 from umbilical.reproduce.expected import Deviation
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
-from umbilical.reproduce.figures import PICTURES
+from umbilical.reproduce.figures import PICTURES, SEEN_IN
 from umbilical.reproduce.ledger import Finding
 from umbilical.reproduce.reproduction import Reproduction, show
 
@@ -96,3 +96,13 @@ def test_versions_and_the_hash_of_every_file_of_data(report: str, found: Reprodu
         assert f"<td>{package}</td>" in section
     for one in found.shown:
         assert sha256(one.contents["nc"]).hexdigest()[:16] in section
+
+
+def test_claims_lead_to_their_figures_and_the_paper_is_linked(report: str, findings: tuple[Finding, ...]) -> None:
+    """Only to figures that are on the page; every claim has one somewhere."""
+    assert '<a href="https://doi.org/10.3390/jmse10111772">' in report
+    assert {finding.id for finding in findings} == SEEN_IN.keys()
+    assert {name for names in SEEN_IN.values() for name in names} <= PICTURES.keys()
+    claim = report.partition('id="C4"')[2].partition("</article>")[0]
+    assert '<a href="#fig4">Fig. 4</a>' in claim
+    assert '<a href="#fig3">' not in report

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from importlib.metadata import version
 
 from umbilical import __version__
-from umbilical.report.html import Html, code, element, prose
+from umbilical.report.html import Html, code, element, join, paragraph, prose
 from umbilical.run import Run
 from umbilical.scenario import Scenario
 from umbilical.scenario.inventory import inventory
@@ -18,7 +18,12 @@ PACKAGES = ("numpy", "scipy", "numba", "xarray", "h5netcdf", "h5py", "matplotlib
 
 
 def table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], *, caption: str = "", numbers: Sequence[int] = ()
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    caption: str = "",
+    numbers: Sequence[int] = (),
+    stacked: bool = False,
 ) -> Html:
     """A table in a box of its own, which scrolls where the page is narrow.
 
@@ -27,12 +32,15 @@ def table(
         rows: cells; text is escaped, HTML is not.
         caption: what stands above.
         numbers: columns whose cells are numbers.
+        stacked: whether a phone shows the cells of a row below each other, instead of scrolling.
     """
     top = element("thead", element("tr", *(element("th", cell, scope="col") for cell in head)))
     lines = [element("tr", *(_cell(cell, k in numbers) for k, cell in enumerate(row))) for row in rows]
-    title = [element("caption", caption)] if caption else []
-    inner = element("table", *title, top, element("tbody", *lines))
-    return element("div", inner, class_="scroll", tabindex="0", role="region", aria_label=caption or head[0])
+    title = [paragraph(caption, class_="caption")] if caption else []
+    inner = element("table", top, element("tbody", *lines))
+    look = "scroll stacked" if stacked else "scroll"
+    box = element("div", inner, class_=look, tabindex="0", role="region", aria_label=caption or head[0])
+    return join([*title, box])
 
 
 def _cell(content: str, number: bool) -> Html:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from hashlib import sha256
 
 from umbilical.admission import load
@@ -28,7 +28,7 @@ from umbilical.report import (
 from umbilical.reproduce.errata import errata
 from umbilical.reproduce.expected import Deviation
 from umbilical.reproduce.experiments import EXPERIMENTS, cell
-from umbilical.reproduce.figures import SOURCE
+from umbilical.reproduce.figures import DOI, PICTURES, SEEN_IN, SOURCE
 from umbilical.reproduce.ledger import Finding, Verdict
 from umbilical.reproduce.points import GRID
 from umbilical.reproduce.reproduction import KINDS, Reproduction
@@ -46,7 +46,7 @@ def article(found: Reproduction, moved: list[Deviation]) -> str:
         moved: what is not as published.
     """
     sections = (
-        Section("ledger", "Claims", _ledger(found.findings)),
+        Section("ledger", "Claims", _ledger(found)),
         Section("figures", "Figures", _figures(found)),
         Section("given", "What the paper gives", _given(found)),
         Section("assumed", "What is assumed", _assumed(found)),
@@ -71,7 +71,8 @@ def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
         [
             paragraph(
                 "Of ",
-                SOURCE,
+                SOURCE.removesuffix(DOI),
+                link(DOI, f"https://doi.org/{DOI}"),
                 ". Made by ",
                 element("code", "umbilical reproduce"),
                 "; every number and every verdict is computed.",
@@ -83,17 +84,22 @@ def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
     )
 
 
-def _ledger(findings: tuple[Finding, ...]) -> Html:
+def _ledger(found: Reproduction) -> Html:
+    findings = found.findings
     rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
-    return join([table(("claim", "statement", "verdict"), rows, caption="The ledger"), *map(_claim, findings)])
+    ledger = table(("claim", "statement", "verdict"), rows, caption="The ledger", stacked=True)
+    shown = {one.picture.name for one in found.shown}
+    return join([ledger, *(_claim(finding, shown) for finding in findings)])
 
 
 def _verdict(finding: Finding) -> Html:
     return element("span", finding.conclusion, class_=f"verdict {CLASSES[finding.verdict]}")
 
 
-def _claim(finding: Finding) -> Html:
+def _claim(finding: Finding, shown: Collection[str]) -> Html:
+    """One claim; its figures are linked where they are on the page."""
     rows = [(n.meaning, f"{n.value:.4g}", "" if n.unit == "1" else n.unit) for n in finding.numbers]
+    links = [link(PICTURES[name].title, f"#{name}") for name in SEEN_IN[finding.id] if name in shown]
     numbers = table(("number", "value", "unit"), rows, numbers=(1,))
     return element(
         "article",
@@ -101,6 +107,7 @@ def _claim(finding: Finding) -> Html:
         paragraph("Verdict: ", _verdict(finding), ". ", finding.because),
         paragraph(element("b", "Where. "), finding.region),
         paragraph(element("b", "Measure. "), finding.measure, class_="quiet"),
+        *([paragraph(element("b", "Figures. "), join(links, ", "), class_="quiet")] if links else []),
         element("details", element("summary", f"{len(rows)} numbers"), numbers),
         class_="claim",
         id=finding.id,
