@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def reproduce(
     figures: Annotated[list[str] | None, Argument(metavar="[FIGURE]...", help="Only these, e.g. fig6 kappa.")] = None,
     out: Annotated[Path, Option("--out", metavar="DIR", help="Folder for the files; made if missing.")] = Path("paper"),
-    maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2000 runs.")] = True,
+    maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2300 runs.")] = True,
     check: Annotated[bool, Option("--check", help="Exit with 7 if a published number or verdict has moved.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
     force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,

@@ -60,7 +60,8 @@ def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNor
     x, y = data.attrs["x"], data.attrs["y"]
     values = np.ma.masked_invalid(peaks.transpose(y, x).values)
     colours = colormaps["viridis"].with_extremes(bad=(0.0, 0.0, 0.0, 0.0))
-    picture = ax.pcolormesh(_borders(data[x]), _borders(data[y]), values, cmap=colours, norm=norm)
+    seamless = {"edgecolors": "face", "linewidth": 0.3}  # else a browser shows hairlines between cells
+    picture = ax.pcolormesh(_borders(data[x]), _borders(data[y]), values, cmap=colours, norm=norm, **seamless)
     rows, columns = np.nonzero(values.mask)
     ax.plot(data[x].values[columns], data[y].values[rows], "x", color=INK, markersize=1.8, markeredgewidth=0.4)
     ax.set_xscale(data[x].attrs["scale"])
