@@ -21,7 +21,7 @@ Place = tuple[str, str, str]
 """Case, arm and observer."""
 CASE_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 HALVINGS = 5
-"""Of a step between two gains of the scan, a factor of 1.19: the edge is then known to half a per cent."""
+"""Of a step between two gains of the scan, a factor of 1.26: the edge is then known to 0.8 per cent."""
 NEAR = 1.03
 """Factor below and above an edge at which the grids are asked."""
 

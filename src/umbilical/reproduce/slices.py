@@ -112,7 +112,7 @@ SLICES = (
     ),
 )
 
-GAINS = _powers(1.0, 2.0**0.25, 8, 22)
+GAINS = _powers(1.0, 2.0 ** (1 / 3), 6, 17)
 """Gain of the allocation at the start, sum of the true thrust factors times kappa_0: 1 is exact."""
 GAIN_CASES = ("none", "dead")
 GAIN = "gain"

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 INK = COLOURS[6]
+ROWS = 500
+"""Of pixels along the cable, more than a panel has."""
 NEGLIGIBLE = 0.02
 """Share of the largest work below which a line would lie on zero."""
 WORK_DASHES = ((), (4, 1.5), (1, 1), (6, 1.5, 1, 1.5))
@@ -46,17 +48,18 @@ def draw_spacetime(data: xarray.Dataset) -> Figure:
 
 def _cable(figure: Figure, ax: Axes, y: xarray.DataArray, length: xarray.DataArray) -> None:
     """One map with its own colours; a power of ten stands in the label, so that all bars are alike."""
-    depth = length.values[:, None] * y["sigma"].values[None, :]
-    times = np.broadcast_to(y["time"].values[:, None], depth.shape)
+    times, longest = y["time"].values, float(length.max())
+    x = np.linspace(0.0, longest, ROWS)
+    ends = zip(length.values, y.values, strict=True)
+    values = np.array([np.interp(x, y["sigma"].values * end, row, right=np.nan) for end, row in ends])
     size = float(np.abs(y.values).max())
     power = 3 * int(np.floor(np.log10(size) / 3.0))
-    look = {"cmap": "RdBu_r", "vmin": -size / 10.0**power, "vmax": size / 10.0**power}
-    picture = ax.pcolormesh(times, depth, y.values / 10.0**power, shading="gouraud", rasterized=True, **look)
+    look = {"cmap": "RdBu_r", "vmin": -size / 10.0**power, "vmax": size / 10.0**power, "aspect": "auto"}
+    picture = ax.imshow(values.T / 10.0**power, extent=(times[0], times[-1], longest, 0.0), **look)
     bar = figure.colorbar(picture, ax=ax, pad=0.02)
     unit = unit_label(y)
     bar.set_label(unit.replace("[", f"[$10^{{{power}}}$ ") if power else unit, fontsize=TYPE)
     bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
-    ax.set_ylim(float(length.max()), 0.0)
 
 
 def draw_energy(data: xarray.Dataset) -> Figure:
