@@ -42,11 +42,28 @@ def test_nothing_is_replaced_unasked_and_nothing_is_run_for_it(umbilical, tmp_pa
     assert (tmp_path / "fig5.csv").read_text() == "mine"
 
 
+def test_folders_on_the_way_are_made_and_a_figure_named_twice_is_made_once(umbilical, tmp_path) -> None:
+    outcome = umbilical("reproduce", "fig5", "fig5", "--out", tmp_path / "a" / "b", "--json")
+    assert outcome.code == 0
+    assert len(list((tmp_path / "a" / "b").iterdir())) == len(reproduction.KINDS)
+
+
 def test_a_folder_that_cannot_be_made_is_said(umbilical, tmp_path) -> None:
     (tmp_path / "file").write_text("")
     outcome = umbilical("reproduce", "fig5", "--out", tmp_path / "file" / "b")
     assert outcome.code == 4
     assert "cannot be made" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [(("map-time", "--no-maps"), "leaves maps out"), (("fig5", "--check"), "hold no published number")],
+)
+def test_what_would_do_nothing_is_refused(umbilical, tmp_path, words: tuple[str, str], why: str) -> None:
+    outcome = umbilical("reproduce", *words, "--out", tmp_path / "x")
+    assert outcome.code == 2
+    assert why in " ".join(outcome.err.split())
+    assert not (tmp_path / "x").exists()
 
 
 @pytest.mark.slow
@@ -73,10 +90,11 @@ def test_the_whole_without_maps(umbilical, tmp_path, monkeypatch) -> None:
 @pytest.mark.browser
 @pytest.mark.skipif(browser.PROGRAM is None, reason="no Chromium on this machine")
 def test_a_browser_shows_the_report_in_silence(tmp_path) -> None:
-    found = reproduction.reproduce(maps=False)
+    """With the maps, at the widths of a phone, a tablet and a desk."""
+    found = reproduction.reproduce()
     report = tmp_path / "report.html"
     report.write_text(article(found, []), encoding="utf-8")
     assert browser.console(report) == []
-    for window in (500, 1280):
+    for window in (360, 500, 1280):
         assert browser.width(report, window) <= window
     assert browser.screenshot(report, tmp_path / "report.png", 500, dark=True).startswith(b"\x89PNG")

@@ -38,7 +38,9 @@ def test_a_link_that_runs_something_is_refused(address: str) -> None:
 
 def test_a_table_scrolls_in_its_own_box_and_escapes_its_cells() -> None:
     made = table(("name", "value"), [(HOSTILE, "1"), (Html("<b>2</b>"), "2")], caption="what", numbers=(1,))
-    assert made.startswith('<div class="scroll" tabindex="0" role="region" aria-label="what"><table><caption>')
+    assert made.startswith(
+        '<p class="caption">what</p><div class="scroll" tabindex="0" role="region" aria-label="what">'
+    )
     assert '<td class="number">1</td>' in made
     assert "<b>2</b>" in made
     assert "<script>" not in made

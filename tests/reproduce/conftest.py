@@ -7,7 +7,9 @@ import pytest
 from umbilical.reproduce.claims import judge
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
 from umbilical.reproduce.ledger import Evidence, Finding
+from umbilical.reproduce.reproduction import evidence as collect
 from umbilical.reproduce.reproduction import run_experiments
+from umbilical.reproduce.slices import compute_slices
 
 
 @pytest.fixture(scope="session")
@@ -16,6 +18,12 @@ def runs() -> Runs:
 
 
 @pytest.fixture(scope="session")
-def findings(runs: Runs) -> tuple[Finding, ...]:
+def evidence(runs: Runs) -> Evidence:
+    """Runs, the scan of the gain and its edges; no maps."""
+    return collect(runs, compute_slices(["gain"]))
+
+
+@pytest.fixture(scope="session")
+def findings(evidence: Evidence) -> tuple[Finding, ...]:
     """The ledger without maps."""
-    return judge(Evidence(runs, {}, {}))
+    return judge(evidence)

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import html
+from hashlib import sha256
 
 import pytest
 
 from tests.support.pages import read
+from umbilical.admission import load
 from umbilical.reproduce.article import article
 from umbilical.reproduce.errata import errata
 from umbilical.reproduce.expected import Deviation
-from umbilical.reproduce.experiments import Runs
-from umbilical.reproduce.figures import PICTURES
+from umbilical.reproduce.experiments import EXPERIMENTS, Runs
+from umbilical.reproduce.figures import PICTURES, SEEN_IN
 from umbilical.reproduce.ledger import Finding
 from umbilical.reproduce.reproduction import Reproduction, show
 
@@ -51,8 +53,9 @@ def test_every_claim_with_its_verdict_and_numbers(report: str, findings: tuple[F
 
 def test_every_assumed_value_with_its_reason_and_every_run_with_its_hash(report: str, found: Reproduction) -> None:
     text = words(report)
-    for reason in found.runs["stuck, with"].scenario.assumed.values():
-        assert reason in text.replace("<code>", "").replace("</code>", "")
+    for name in {EXPERIMENTS[name].preset for name in found.runs}:
+        for reason in load(name).assumed.values():
+            assert reason in text.replace("<code>", "").replace("</code>", ""), name
     for run in found.runs.values():
         assert run.scenario.hash[:12] in report
 
@@ -85,3 +88,21 @@ def test_what_has_moved_stands_first(found: Reproduction) -> None:
     assert "Not as published" in head
     assert "C1.tip_peak: 11 m, published 10.8, allowed 0.11 off" in head
     assert "as published, within" in article(found, []).partition("<nav>")[0]
+
+
+def test_versions_and_the_hash_of_every_file_of_data(report: str, found: Reproduction) -> None:
+    section = report.partition('id="versions"')[2]
+    for package in ("numpy", "h5netcdf", "h5py", "HDF5", "matplotlib"):
+        assert f"<td>{package}</td>" in section
+    for one in found.shown:
+        assert sha256(one.contents["nc"]).hexdigest()[:16] in section
+
+
+def test_claims_lead_to_their_figures_and_the_paper_is_linked(report: str, findings: tuple[Finding, ...]) -> None:
+    """Only to figures that are on the page; every claim has one somewhere."""
+    assert '<a href="https://doi.org/10.3390/jmse10111772">' in report
+    assert {finding.id for finding in findings} == SEEN_IN.keys()
+    assert {name for names in SEEN_IN.values() for name in names} <= PICTURES.keys()
+    claim = report.partition('id="C4"')[2].partition("</article>")[0]
+    assert '<a href="#fig4">Fig. 4</a>' in claim
+    assert '<a href="#fig3">' not in report

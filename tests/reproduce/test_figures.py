@@ -3,47 +3,24 @@
 from __future__ import annotations
 
 import io
+from itertools import product
 
 import numpy as np
 import pytest
 import xarray
 
+from tests.support.maps import made_up_maps
 from umbilical.plots.figure import render
+from umbilical.plots.paper.maps import _borders
 from umbilical.plots.paper.style import COLUMN_WIDTH
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
 from umbilical.reproduce.figures import PICTURES, Picture
 from umbilical.reproduce.lyapunov import lyapunov
 from umbilical.reproduce.reproduction import KINDS, choose, show
-from umbilical.reproduce.slices import GAIN_CASES, GAINS, SLICES, Axis
+from umbilical.reproduce.slices import MAPS
 from umbilical.reproduce.tabular import to_csv
 
-FROM_RUNS = [picture for picture in PICTURES.values() if not picture.mapped]
-
-
-def made_up_maps() -> dict[str, xarray.Dataset]:
-    """Maps of the right shape with some cells diverged."""
-    rng = np.random.default_rng(0)
-    found = {}
-    for one in SLICES:
-        coordinates = {
-            "observer": ["on", "off"],
-            "arm": ["without", "with"],
-            **{a.name: a.coordinate() for a in (one.y, one.x)},
-        }
-        found[one.name] = _random(rng, coordinates).assign_attrs(
-            x=one.x.name, y=one.y.name, paper_x=one.x.paper, paper_y=one.y.paper
-        )
-    axis = Axis("gain", "gain", GAINS, 1.0, scale="log")
-    names = {"observer": ["on", "off"], "case": list(GAIN_CASES), "arm": ["without", "with"]}
-    return found | {"gain": _random(rng, {**names, "gain": axis.coordinate()})}
-
-
-def _random(rng: np.random.Generator, coordinates: dict) -> xarray.Dataset:
-    sizes = [len(c[1]) if isinstance(c, tuple) else len(c) for c in coordinates.values()]
-    peaks = rng.uniform(1e-3, 1.0, sizes)
-    peaks[peaks > 0.9] = np.nan
-    words = {"units": "m", "long_name": "peak", "symbol": "y"}
-    return xarray.Dataset({"peak": (tuple(coordinates), peaks, words)}, coordinates)
+FROM_RUNS = [picture for picture in PICTURES.values() if not picture.scanned]
 
 
 def test_all_figures_of_the_paper_are_there() -> None:
@@ -73,13 +50,41 @@ def test_a_figure_is_drawn_from_its_stored_data_alone(runs: Runs, picture: Pictu
 
 def test_faults_are_marked_where_there_are_some(runs: Runs) -> None:
     panels = PICTURES["fig6"].draw(PICTURES["fig6"].data(runs, {})).axes
-    marked = {axes.get_title("left"): [text.get_text() for text in axes.texts] for axes in panels}
+    marked = {axes.get_title("left"): "fault" in axes.get_legend_handles_labels()[1] for axes in panels}
     assert marked == {
-        "(a) motor 2 dead": ["fault"],
-        "(a) motor 2 stuck": ["fault"],
-        "(a) motor 2 partial": ["fault"],
-        "(b) no fault": [],
+        "(a1) motor 2 dead": True,
+        "(a2) motor 2 stuck": True,
+        "(a3) motor 2 partial": True,
+        "(b) no fault": False,
     }
+
+
+def test_every_line_is_named_once_above_the_figure(runs: Runs) -> None:
+    """Marks of a fault, too, which stand only in some of the panels."""
+    picture = PICTURES["lyapunov"]
+    (names,) = picture.draw(picture.data(runs, {})).legends
+    assert [text.get_text() for text in names.get_texts()] == ["$V$", "$V_1$", "$|V_2|$", "$V_3$", "fault"]
+
+
+def test_a_map_says_which_row_and_arm_a_panel_is_and_marks_what_diverged(runs: Runs) -> None:
+    """No colour for a diverged cell, which could be taken for a value, but a mark for each."""
+    data = PICTURES["map-rates"].data(runs, made_up_maps())
+    panels = PICTURES["map-rates"].draw(data).axes[:6]
+    assert panels[0].get_title("left") == "disturbance observer on\n(a) known factors"
+    assert panels[5].get_title("left") == r"(f) $\kappa$ in a box"
+    for ax, (observer, arm) in zip(panels, product(data["observer"].values, data["arm"].values), strict=True):
+        lost = int(np.isnan(data["peak"].sel(observer=observer, arm=arm)).sum())
+        assert [len(np.asarray(one.get_xdata())) for one in ax.lines if one.get_marker() == "x"] == [lost]
+        cells = ax.collections[0]
+        assert (cells.to_rgba(np.ma.asarray(cells.get_array()))[..., 3] == 0.0).sum() == lost
+
+
+def test_cells_of_a_map_lie_around_their_values() -> None:
+    """On a logarithmic axis as on a linear one."""
+    for scale, values in (("linear", [1.0, 2.0, 3.0]), ("log", [1.0, 4.0, 16.0])):
+        borders = _borders(xarray.DataArray(values, attrs={"scale": scale}))
+        middles = np.sqrt(borders[1:] * borders[:-1]) if scale == "log" else (borders[1:] + borders[:-1]) / 2.0
+        assert middles == pytest.approx(values)
 
 
 def test_the_same_run_gives_the_same_files(runs: Runs) -> None:
@@ -126,8 +131,9 @@ def test_a_table_of_cells_names_each(runs: Runs) -> None:
 
 
 def test_maps_are_left_out_on_request() -> None:
-    assert not any(picture.mapped for picture in choose([], maps=False))
-    assert choose(["fig3", "gain"], maps=False) == (PICTURES["fig3"],)
+    """Not the scan of the gain, on which verdicts rest; and a figure named twice is made once."""
+    assert PICTURES.keys() - {picture.name for picture in choose([], maps=False)} == set(MAPS)
+    assert choose(["fig3", "gain", "map-time", "fig3"], maps=False) == (PICTURES["fig3"], PICTURES["gain"])
     with pytest.raises(KeyError):
         choose(["fig33"], maps=True)
 

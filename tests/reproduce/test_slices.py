@@ -11,9 +11,10 @@ import pytest
 from umbilical.admission import load
 from umbilical.engine.simulate import simulate
 from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, preset
-from umbilical.reproduce.points import FACTORS, GRID, Point, gain_point, make_point, run_points
+from umbilical.reproduce.ledger import Evidence
+from umbilical.reproduce.points import EARLY, FACTORS, GRID, Point, gain_point, make_point, run_points
 from umbilical.reproduce.regions import diverged, reversal, same_on_grids
-from umbilical.reproduce.slices import PRESET_RATES, SLICES
+from umbilical.reproduce.slices import GAIN_CASES, PRESET_RATES, SLICES
 from umbilical.scenario import Scenario
 
 DEFAULT: dict[str, Any] = {}
@@ -54,7 +55,7 @@ def _observed(points: set[Point]) -> list[Point]:
 def test_equal_runs_are_made_once() -> None:
     """Fault control knows no factors, and without it nothing adapts."""
     counts = {one.name: len({point for _, point in one.points()}) for one in SLICES}
-    assert counts == {"map-time": 900, "map-factors": 2 * (225 + 15), "map-rates": 2 * (225 + 1 + 13 * 15)}
+    assert counts == {"map-time": 900, "map-factors": 2 * (225 + 2 * 15), "map-rates": 2 * (225 + 1 + 13 * 15)}
 
 
 def test_fault_control_knows_no_factors() -> None:
@@ -94,11 +95,26 @@ def test_the_comparison_of_grids_can_fail() -> None:
     assert peaks[0] != pytest.approx(peaks[1], rel=0.01)
 
 
-@pytest.mark.slow
-def test_the_edge_of_stability_is_no_matter_of_the_grid() -> None:
-    """The loop runs away from 3.7 times the exact gain on, on 8, 16 and 64 elements; 3 is no edge."""
-    assert same_on_grids(3.7, "without", "on")
-    assert not same_on_grids(3.0, "without", "on")
+def test_edges_of_stability_are_no_matter_of_the_grid(evidence: Evidence) -> None:
+    """All eight on 8, 16 and 64 elements; what is no edge is not taken for one."""
+    assert len(evidence.edges) == 8
+    assert all(edge.same for edge in evidence.edges.values())
+    assert not same_on_grids(3.0, ("none", "without", "on"))
+
+
+def test_a_dead_motor_moves_the_edge_by_what_it_no_longer_gives(evidence: Evidence) -> None:
+    """Without it three fifths of the gain are left, so the edge lies at five thirds."""
+    for arm, observer in product(ARMS, OBSERVERS):
+        gains = [evidence.edges[case, arm, observer].gain for case in GAIN_CASES]
+        assert gains[1] / gains[0] == pytest.approx(sum(FACTORS) / FACTORS[0], rel=0.03)
+
+
+def test_a_dead_motor_that_runs_away_was_dead(evidence: Evidence) -> None:
+    """The fault of the scan comes before anything diverges, else its crosses would be those of the healthy loop."""
+    dead = evidence.gain.sel(case="dead")
+    lost = np.isnan(dead["peak"])
+    assert bool(lost.any())
+    assert float(dead["end_time"].where(lost).min()) > EARLY["faults.1.start"]
 
 
 def test_runaway_is_told_from_a_large_peak() -> None:

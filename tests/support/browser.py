@@ -17,7 +17,10 @@ _QUIET = (
     "--hide-scrollbars",
     "--host-resolver-rules=MAP * ~NOTFOUND",
 )
-_WIDTH = "<script>document.title = 'width ' + document.documentElement.scrollWidth</script>"
+_WIDTH = "<script>parent.postMessage(document.documentElement.scrollWidth, '*')</script>"
+_FRAME = """<!DOCTYPE html><body style="margin: 0"><script>onmessage = m => document.title = 'width ' + m.data</script>
+<iframe src="{name}" style="border: 0; width: {window}px; height: {height}px"></iframe></body>"""
+"""A page in a window of any width: the browser's own is at least 500 pixels wide."""
 
 
 def _call(page: Path, *options: str) -> subprocess.CompletedProcess[str]:
@@ -36,13 +39,21 @@ def width(page: Path, window: int) -> int:
     """How wide the page is, in pixels, in a window that wide; measured in a copy with a script."""
     copy = page.with_name(f"measured-{page.name}")
     copy.write_text(page.read_text(encoding="utf-8").replace("</body>", f"{_WIDTH}</body>"), encoding="utf-8")
-    found = re.search(r"<title>width (\d+)</title>", _call(copy, f"--window-size={window},900", "--dump-dom").stdout)
+    dump = _call(_framed(copy, window, 900), "--window-size=1400,900", "--virtual-time-budget=5000", "--dump-dom")
+    found = re.search(r"<title>width (\d+)</title>", dump.stdout)
     assert found
     return int(found[1])
+
+
+def _framed(page: Path, window: int, height: int) -> Path:
+    frame = page.with_name(f"framed-{page.name}")
+    frame.write_text(_FRAME.format(name=page.name, window=window, height=height), encoding="utf-8")
+    return frame
 
 
 def screenshot(page: Path, target: Path, window: int, *, dark: bool = False) -> bytes:
     """The page as a PNG."""
     shade = ("--blink-settings=preferredColorScheme=0",) if dark else ()
-    _call(page, f"--window-size={window},2000", f"--screenshot={target}", *shade)
+    size = f"--window-size={max(window, 500)},2000"
+    _call(_framed(page, window, 2000), size, f"--screenshot={target}", *shade)
     return target.read_bytes()

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def reproduce(
     figures: Annotated[list[str] | None, Argument(metavar="[FIGURE]...", help="Only these, e.g. fig6 kappa.")] = None,
     out: Annotated[Path, Option("--out", metavar="DIR", help="Folder for the files; made if missing.")] = Path("paper"),
-    maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2000 runs.")] = True,
+    maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2300 runs.")] = True,
     check: Annotated[bool, Option("--check", help="Exit with 7 if a published number or verdict has moved.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
     force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
@@ -34,7 +34,7 @@ def reproduce(
     Each figure is written as .png and .pdf, its data as .nc and .csv. The report, report.html, opens in any browser
     without a network. With figures named there is no ledger and no report.
     """
-    names = check_names(figures or [])
+    names = check_names(figures or [], maps=maps, check=check)
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.reproduce import reproduction
     from umbilical.reproduce.article import article
@@ -56,14 +56,19 @@ def reproduce(
     return DOES_NOT_HOLD if check and moved else 0
 
 
-def check_names(names: list[str]) -> list[str]:
-    """The figures asked for; refused all at once if some are not there."""
+def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
+    """The figures asked for, each once; refused if they are not there, are left out, or there is nothing to check."""
     from umbilical.reproduce import PICTURES
+    from umbilical.reproduce.slices import MAPS
 
     unknown = [name for name in names if name not in PICTURES]
     if unknown:
         raise BadParameter(f"no figure {', '.join(unknown)}; there are {', '.join(PICTURES)}", param_hint="FIGURE")
-    return names
+    if left_out := [name for name in names if name in MAPS and not maps]:
+        raise BadParameter(f"{', '.join(left_out)}: a map, and --no-maps leaves maps out", param_hint="FIGURE")
+    if names and check:
+        raise BadParameter("figures alone hold no published number; leave the figures out", param_hint="--check")
+    return list(dict.fromkeys(names))
 
 
 def summary(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from importlib.metadata import version
 
 from umbilical import __version__
-from umbilical.report.html import Html, code, element, prose
+from umbilical.report.html import Html, code, element, join, paragraph, prose
 from umbilical.run import Run
 from umbilical.scenario import Scenario
 from umbilical.scenario.inventory import inventory
 
 LONG = 60
 """Characters of a cell from which on it must not become narrow."""
-PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
+PACKAGES = ("numpy", "scipy", "numba", "xarray", "h5netcdf", "h5py", "matplotlib")
 
 
 def table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], *, caption: str = "", numbers: Sequence[int] = ()
+    head: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    *,
+    caption: str = "",
+    numbers: Sequence[int] = (),
+    stacked: bool = False,
 ) -> Html:
     """A table in a box of its own, which scrolls where the page is narrow.
 
@@ -27,12 +32,15 @@ def table(
         rows: cells; text is escaped, HTML is not.
         caption: what stands above.
         numbers: columns whose cells are numbers.
+        stacked: whether a phone shows the cells of a row below each other, instead of scrolling.
     """
     top = element("thead", element("tr", *(element("th", cell, scope="col") for cell in head)))
     lines = [element("tr", *(_cell(cell, k in numbers) for k, cell in enumerate(row))) for row in rows]
-    title = [element("caption", caption)] if caption else []
-    inner = element("table", *title, top, element("tbody", *lines))
-    return element("div", inner, class_="scroll", tabindex="0", role="region", aria_label=caption or head[0])
+    title = [paragraph(caption, class_="caption")] if caption else []
+    inner = element("table", top, element("tbody", *lines))
+    look = "scroll stacked" if stacked else "scroll"
+    box = element("div", inner, class_=look, tabindex="0", role="region", aria_label=caption or head[0])
+    return join([*title, box])
 
 
 def _cell(content: str, number: bool) -> Html:
@@ -52,20 +60,27 @@ def given_table(scenario: Scenario, caption: str, keys: Sequence[str] = ()) -> H
     return table(("key", "value", "unit", "meaning", "source"), rows, caption=caption, numbers=(1,))
 
 
-def assumed_table(scenario: Scenario, caption: str) -> Html:
-    """Values that no source gives, each with the reason; what is assumed to be absent, too."""
+def assumed_table(scenarios: Iterable[Scenario], caption: str) -> Html:
+    """Values that no source gives, each with the reason, of all scenarios; what is assumed to be absent, too.
+
+    A row that an earlier scenario has is not repeated.
+    """
+    rows = list(dict.fromkeys(row for scenario in scenarios for row in _assumed(scenario)))
+    before = ["", *(reason for *_, reason in rows)]
+    cells = [
+        (code(key), code(value) if value else "none", unit, meaning, "as above" if reason == last else prose(reason))
+        for (key, value, unit, meaning, reason), last in zip(rows, before, strict=False)
+    ]
+    return table(("key", "value", "unit", "meaning", "why"), cells, caption=caption)
+
+
+def _assumed(scenario: Scenario) -> Iterator[tuple[str, str, str, str, str]]:
+    """Key, value, unit, meaning and reason of all that is assumed; no value where it is to be absent."""
     entries = [entry for entry in inventory(scenario) if entry.assumed]
-    told = {entry.key for entry, before in zip(entries[1:], entries[:-1], strict=True) if entry.reason == before.reason}
-    rows = [
-        (code(e.key), code(e.value), e.unit, e.meaning, "as above" if e.key in told else prose(e.reason))
-        for e in entries
-    ]
-    rows += [
-        (code(key), "none", "", "", prose(reason))
-        for key, reason in scenario.assumed.items()
-        if not any(f"{entry.key}.".startswith(f"{key}.") for entry in entries)
-    ]
-    return table(("key", "value", "unit", "meaning", "why"), rows, caption=caption)
+    yield from ((e.key, e.value, e.unit, e.meaning, e.reason) for e in entries)
+    for key, reason in scenario.assumed.items():
+        if not any(f"{entry.key}.".startswith(f"{key}.") for entry in entries):
+            yield key, "", "", "", reason
 
 
 def runs_table(rows: Iterable[tuple[str, str, str, Run]], caption: str) -> Html:
@@ -85,6 +100,8 @@ def runs_table(rows: Iterable[tuple[str, str, str, Run]], caption: str) -> Html:
 
 def versions_table() -> Html:
     """What the numbers were made with."""
+    from h5py.version import hdf5_version
+
     rows = [("umbilical", __version__), ("python", platform.python_version()), *((p, version(p)) for p in PACKAGES)]
-    rows.append(("machine", platform.machine()))
+    rows += [("HDF5", hdf5_version), ("machine", platform.machine())]
     return table(("package", "version"), rows, caption="Versions")

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from hashlib import sha256
 
+from umbilical.admission import load
 from umbilical.report import (
     Html,
     Section,
     assumed_table,
+    code,
     drawing,
     element,
     given_table,
@@ -25,11 +28,13 @@ from umbilical.report import (
 from umbilical.reproduce.errata import errata
 from umbilical.reproduce.expected import Deviation
 from umbilical.reproduce.experiments import EXPERIMENTS, cell
-from umbilical.reproduce.figures import SOURCE
+from umbilical.reproduce.figures import DOI, PICTURES, SEEN_IN, SOURCE
 from umbilical.reproduce.ledger import Finding, Verdict
 from umbilical.reproduce.points import GRID
 from umbilical.reproduce.reproduction import KINDS, Reproduction
 
+HASH = 16
+"""Digits of the hash of a file that are shown."""
 CLASSES = {Verdict.HOLDS: "holds", Verdict.CONDITIONAL: "part", Verdict.FAILS: "fails"}
 
 
@@ -41,13 +46,13 @@ def article(found: Reproduction, moved: list[Deviation]) -> str:
         moved: what is not as published.
     """
     sections = (
-        Section("ledger", "Claims", _ledger(found.findings)),
+        Section("ledger", "Claims", _ledger(found)),
         Section("figures", "Figures", _figures(found)),
         Section("given", "What the paper gives", _given(found)),
         Section("assumed", "What is assumed", _assumed(found)),
         Section("runs", "What was run", _runs(found)),
         Section("errata", "Errata", _errata()),
-        Section("versions", "Versions", versions_table()),
+        Section("versions", "Versions", join([versions_table(), _hashes(found)])),
     )
     return page(
         "Vibration cascade control of a cable and its ROV: the paper, reproduced", _lead(found, moved), sections
@@ -66,29 +71,35 @@ def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
         [
             paragraph(
                 "Of ",
-                SOURCE,
+                SOURCE.removesuffix(DOI),
+                link(DOI, f"https://doi.org/{DOI}"),
                 ". Made by ",
                 element("code", "umbilical reproduce"),
                 "; every number and every verdict is computed.",
             ),
             paragraph(told, " ", check),
             *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),
-            *([] if found.maps else [paragraph("The maps were left out (--no-maps): verdicts rest on single runs.")]),
+            *([] if found.mapped else [paragraph("The maps were left out (--no-maps).")]),
         ]
     )
 
 
-def _ledger(findings: tuple[Finding, ...]) -> Html:
+def _ledger(found: Reproduction) -> Html:
+    findings = found.findings
     rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
-    return join([table(("claim", "statement", "verdict"), rows, caption="The ledger"), *map(_claim, findings)])
+    ledger = table(("claim", "statement", "verdict"), rows, caption="The ledger", stacked=True)
+    shown = {one.picture.name for one in found.shown}
+    return join([ledger, *(_claim(finding, shown) for finding in findings)])
 
 
 def _verdict(finding: Finding) -> Html:
     return element("span", finding.conclusion, class_=f"verdict {CLASSES[finding.verdict]}")
 
 
-def _claim(finding: Finding) -> Html:
+def _claim(finding: Finding, shown: Collection[str]) -> Html:
+    """One claim; its figures are linked where they are on the page."""
     rows = [(n.meaning, f"{n.value:.4g}", "" if n.unit == "1" else n.unit) for n in finding.numbers]
+    links = [link(PICTURES[name].title, f"#{name}") for name in SEEN_IN[finding.id] if name in shown]
     numbers = table(("number", "value", "unit"), rows, numbers=(1,))
     return element(
         "article",
@@ -96,6 +107,7 @@ def _claim(finding: Finding) -> Html:
         paragraph("Verdict: ", _verdict(finding), ". ", finding.because),
         paragraph(element("b", "Where. "), finding.region),
         paragraph(element("b", "Measure. "), finding.measure, class_="quiet"),
+        *([paragraph(element("b", "Figures. "), join(links, ", "), class_="quiet")] if links else []),
         element("details", element("summary", f"{len(rows)} numbers"), numbers),
         class_="claim",
         id=finding.id,
@@ -138,9 +150,12 @@ def _given(found: Reproduction) -> Html:
 
 
 def _assumed(found: Reproduction) -> Html:
-    scenario = found.runs[cell("stuck", "with")].scenario
-    words = paragraph("What the paper does not print had to be chosen. The reasons are those of the presets.")
-    return join([words, assumed_table(scenario, "Assumed for a stuck motor with fault control, which has them all")])
+    names = dict.fromkeys(EXPERIMENTS[name].preset for name in found.runs)
+    words = paragraph(
+        "What the paper does not print had to be chosen. The reasons are those of the presets: "
+        f"{', '.join(names)}. A later one is named only with what it adds."
+    )
+    return join([words, assumed_table([load(name) for name in names], "Assumed, in all presets that were run")])
 
 
 def _runs(found: Reproduction) -> Html:
@@ -152,6 +167,12 @@ def _rows(found: Reproduction) -> Iterator[tuple]:
         experiment = EXPERIMENTS[name]
         changes = ", ".join(f"{key} = {json.dumps(value)}" for key, value in experiment.changes.items())
         yield experiment.what, experiment.preset, changes, run
+
+
+def _hashes(found: Reproduction) -> Html:
+    rows = [(f"{one.picture.name}.nc", code(sha256(one.contents["nc"]).hexdigest()[:HASH])) for one in found.shown]
+    words = f"The first {HASH} digits of SHA-256; the same versions and scenarios give the same data, on any day"
+    return table(("file", "hash"), rows, caption=f"The data. {words}")
 
 
 def _errata() -> Html:

@@ -51,7 +51,9 @@ def states(runs: Runs) -> xarray.Dataset:
 
 def boundary(runs: Runs) -> xarray.Dataset:
     """Fig. 6: y(l,t) in every case with and without fault control."""
-    return _cases(runs, "tip_displacement", CASES)
+    data = _cases(runs, "tip_displacement", CASES)
+    data["tip_displacement"].attrs["symbol"] = "y(l,t)"
+    return data
 
 
 def speeds(runs: Runs) -> xarray.Dataset:

@@ -18,6 +18,8 @@ FAULTS = ("dead", "stuck", "partial")
 CASES = ("none", *FAULTS)
 ARMS = ("without", "with")
 OBSERVERS = ("on", "off")
+GRIDS = (8, 16, 64)
+"""Numbers of elements on which a runaway must be the same; the last is that of the presets."""
 PLACES = ("l/4", "l/2", "3l/4", "l")
 
 OBSERVER = "control.disturbance_observer.enabled"
@@ -27,6 +29,8 @@ BELIEVED = "control.nominal.thrust_coefficients"
 BOX = {"control.allocation.lower": (0.0, -1000.0, -1000.0), "control.allocation.upper": (1.5, 1000.0, 1000.0)}
 """Projection: kappa_0 from 0 to three times its exact value, the offsets to a thousand rad2/s2."""
 BLIND = {OBSERVER: False}
+FAR = 700.0
+"""rad2/s2, a motor stuck at seven times the value of the presets."""
 FAST = {RATES: [1.0, 1000.0, 1000.0]}
 """Ten times the adaptation rates of the presets."""
 
@@ -83,7 +87,8 @@ def _beyond_the_paper() -> Iterable[Experiment]:
     long = {"duration": 400.0, "output.interval": 0.5}
     haul = {"winch.start_length": 500.0, "winch.end_length": 450.0}
     yield Experiment("free, long", "paper-none", "no control, eight times as long", long)
-    yield Experiment("none, with, long", "paper-adaptive", "no fault, with fault control, eight times as long", long)
+    endless = {"duration": 4000.0, "output.interval": 2.0, "grid.elements": GRIDS[0]}
+    yield Experiment("none, with, endless", "paper-adaptive", "no fault, with fault control, 80 times as long", endless)
     yield Experiment("free, hauling in", "paper-none", "no control, hauling in", haul)
     yield Experiment("pd, hauling in", "paper-pd", "PD, hauling in", haul)
     yield Experiment("proposed, hauling in", "paper", "proposed law, hauling in", haul)
@@ -104,9 +109,15 @@ def _beyond_the_paper() -> Iterable[Experiment]:
     fast = BLIND | FAST
     yield Experiment("blind, dead, fast", preset("dead", "with"), "dead, with, ten times faster; no observer", fast)
     yield Experiment("blind, dead, boxed", preset("dead", "with"), "the same with kappa in a box", fast | BOX)
-    endless = BLIND | long
-    yield Experiment("blind, none, with, long", preset("none", "with"), "no fault, with; no observer, long", endless)
-    yield Experiment("blind, none, boxed, long", preset("none", "with"), "the same with kappa in a box", endless | BOX)
+    for elements in GRIDS[:-1]:
+        grid = fast | {"grid.elements": elements}
+        yield Experiment(f"blind, dead, fast, {elements}", preset("dead", "with"), "the same on another grid", grid)
+    blind = BLIND | long
+    yield Experiment("blind, none, with, long", preset("none", "with"), "no fault, with; no observer, long", blind)
+    yield Experiment("blind, none, boxed, long", preset("none", "with"), "the same with kappa in a box", blind | BOX)
+    for arm in ARMS:
+        far = BLIND | {"faults.1.value": FAR}
+        yield Experiment(f"blind, stuck, {arm}", preset("stuck", arm), f"stuck far, {arm}; no observer", far)
 
 
 EXPERIMENTS: dict[str, Experiment] = {e.name: e for e in (*_of_the_paper(), *_beyond_the_paper())}

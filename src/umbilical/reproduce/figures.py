@@ -15,7 +15,9 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-SOURCE = "Rao, Wang, Du, J. Mar. Sci. Eng. 2022, 10(11), 1772, doi 10.3390/jmse10111772"
+MARKS = "Dots: better than known factors; empty cells with a small x: diverged; white cross: the preset."
+DOI = "10.3390/jmse10111772"
+SOURCE = f"Rao, Wang, Du, J. Mar. Sci. Eng. 2022, 10(11), 1772, doi {DOI}"
 THREE = tuple(datasets.CONTROLLERS.values())
 HEALTHY = (cell("none", "without"),)
 STUCK = tuple(cell(case, arm) for case in ("none", "stuck") for arm in ARMS)
@@ -32,7 +34,7 @@ class Picture:
         caption: what is seen.
         draw: from its dataset to a figure.
         experiments: names of the runs it is made from.
-        collect: from these runs to its dataset; None where it shows a map, whose dataset has the figure's name.
+        collect: from these runs to its dataset; None where it shows a scan, whose dataset has the figure's name.
         faulty: experiment whose fault is marked.
     """
 
@@ -45,13 +47,13 @@ class Picture:
     faulty: str = ""
 
     @property
-    def mapped(self) -> bool:
-        """Whether it needs the maps."""
+    def scanned(self) -> bool:
+        """Whether it shows a map or the scan of the gain."""
         return self.collect is None
 
-    def data(self, runs: Runs, maps: Mapping[str, xarray.Dataset]) -> xarray.Dataset:
+    def data(self, runs: Runs, scans: Mapping[str, xarray.Dataset]) -> xarray.Dataset:
         """The dataset behind it, with title, source and the fault it marks."""
-        found = maps[self.name] if self.collect is None else self.collect(runs)
+        found = scans[self.name] if self.collect is None else self.collect(runs)
         marks: dict[str, Any] = datasets.about_fault(runs[self.faulty]) if self.faulty else {}
         about = {"title": f"{self.title}: {self.caption}", "source": SOURCE, "version_umbilical": __version__}
         return found.assign_attrs({**about, **marks})
@@ -78,7 +80,8 @@ _ALL = (
     Picture(
         "fig5",
         "Fig. 5",
-        "ROV velocity x2 and slope rate z2 with the estimates of the high-gain observers; proposed law, no fault.",
+        "ROV velocity x2 and slope rate z2 with the estimates of the high-gain observers, (c) z2 "
+        "near its largest value after the start; proposed law, no fault.",
         paper.draw_states,
         HEALTHY,
         datasets.states,
@@ -86,7 +89,7 @@ _ALL = (
     Picture(
         "fig6",
         "Fig. 6",
-        "The ROV (a) after a fault of motor 2, three kinds of it, and (b) without a fault, without and with fault "
+        "The ROV (a) with a fault of motor 2, three kinds of it, and (b) without one; thrust factors known, and fault "
         "control.",
         paper.draw_boundary,
         tuple(cell(case, arm) for case in CASES for arm in ARMS),
@@ -132,7 +135,7 @@ _ALL = (
     Picture(
         "energy",
         "Power balance",
-        "Energy of cable and ROV, and the work on it since the start.",
+        "Energy of cable and ROV, and the work on it since the start. What the balance leaves open is in the data.",
         paper.draw_energy,
         THREE,
         datasets.balance,
@@ -140,9 +143,8 @@ _ALL = (
     Picture(
         "lyapunov",
         "V(t)",
-        "The Lyapunov function of the proof along two runs. It falls between pushes of the load; V3 jumps at the "
-        "fault, "
-        "because D does.",
+        "The Lyapunov function of the proof along two runs, and its parts. It falls between pushes of the load; V3 "
+        "jumps at the fault, because D does.",
         paper.draw_lyapunov,
         (cell("none", "without"), cell("dead", "without")),
         datasets.lyapunov_parts,
@@ -181,31 +183,49 @@ _ALL = (
     Picture(
         "gain",
         "Where the loop runs away",
-        "Peak of the ROV over the gain of the allocation at the start, without and with fault control; crosses at the "
-        "top: diverged.",
+        "Peak of the ROV over the gain of the allocation at the start; motor 2 healthy, or dead from 0.1 s on. Crosses "
+        "at the top: diverged.",
         paper.draw_gain,
     ),
     Picture(
         "map-time",
         "Loss of thrust by the instant of the fault",
-        "Peak of the ROV after the fault. Dots: fault control is better; dark: diverged; cross: the preset.",
+        f"Peak of the ROV after the fault. {MARKS}",
         paper.draw_map,
     ),
     Picture(
         "map-factors",
         "Stuck value by the error of the known factors",
-        "Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal.",
+        f"Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal. {MARKS}",
         paper.draw_map,
     ),
     Picture(
         "map-rates",
         "Start of the adaptation by its rate",
-        "Peak of the ROV after motor 2 has died. Without fault control nothing adapts, so all cells are equal.",
+        f"Peak of the ROV after motor 2 has died. With known factors nothing adapts, so all cells are equal. {MARKS}",
         paper.draw_map,
     ),
 )
 PICTURES: dict[str, Picture] = {picture.name: picture for picture in _ALL}
 """Every figure by name, in the order of the report."""
+
+SEEN_IN: dict[str, tuple[str, ...]] = {
+    "C1": ("fig3", "spacetime"),
+    "C2": ("fig3", "spacetime", "energy"),
+    "C3": ("fig3",),
+    "C4": ("fig4",),
+    "C5": ("fig5",),
+    "C6": ("fig6", "gain"),
+    "C7a": ("fig6", "absorption", "gain", "map-time", "map-factors"),
+    "C7b": ("fig6", "kappa", "map-time", "map-factors"),
+    "C7c": ("fig6",),
+    "C8": ("fig7", "fig8"),
+    "C9": ("fig9", "absorption"),
+    "A1": ("adaptation", "map-time", "map-factors"),
+    "A2": ("adaptation", "gain", "map-rates"),
+    "A3": ("adaptation", "map-rates", "map-factors"),
+}
+"""Figures in which a claim can be seen."""
 
 
 def needed(pictures: tuple[Picture, ...]) -> tuple[str, ...]:

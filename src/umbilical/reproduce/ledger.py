@@ -33,10 +33,13 @@ class Kind(Enum):
     ERROR = "error"
     SAMPLED = "sampled"
     FRONT = "front"
+    EXACT = "exact"
     COUNT = "count"
+    FEW = "few"
     SHARE = "share"
     INSTANT = "instant"
     EDGE = "edge"
+    CROSSING = "crossing"
 
 
 class Number(NamedTuple):
@@ -79,15 +82,37 @@ class Finding:
         return f"{self.verdict.value} {self.when}" if self.verdict is Verdict.CONDITIONAL else self.verdict.value
 
 
+class Edge(NamedTuple):
+    """The least gain at which a loop runs away, and whether it is the same on all grids."""
+
+    gain: float
+    same: bool
+
+
 class Evidence(NamedTuple):
-    """What claims are judged by; ``maps`` and ``edges`` are empty when they were left out."""
+    """What claims are judged by.
+
+    Attributes:
+        runs: single runs by the names of their experiments.
+        gain: the scan of the gain of the allocation.
+        edges: where the loop runs away, by case, arm and observer.
+        maps: by name; empty when they were left out.
+    """
 
     runs: Runs
+    gain: xarray.Dataset
+    edges: Mapping[tuple[str, str, str], Edge]
     maps: Mapping[str, xarray.Dataset]
-    edges: Mapping[str, float]
 
 
-UNMAPPED = "Not looked at: the maps were left out (--no-maps)."
+UNMAPPED = "The maps were left out (--no-maps)."
+FOLLOWS = 0.1
+"""A relative error below which we say that an estimate follows."""
+
+
+def count_kind(size: int) -> Kind:
+    """The kind of a count of so many: a few along one axis of a map, or the cells of a map."""
+    return Kind.FEW if size < 100 else Kind.COUNT
 
 
 def decide(holds: bool, somewhere: bool = False) -> Verdict:

@@ -16,8 +16,12 @@ from umbilical.reproduce.work import Progress, in_parallel
 from umbilical.run import Status
 
 GRID: dict[str, Any] = {"grid.elements": 8}
+EARLY = {"faults.1.start": 0.1}
+"""A fault so early that it comes before a loop runs away, in scans of the gain."""
 FACTORS = (1.2, 0.8)
 """True thrust factors of the presets, N s2/rad2."""
+EXACT = 1.0 / sum(FACTORS)
+"""kappa_0 that delivers what is commanded, rad2/(N s2)."""
 Changes = Mapping[str, Any]
 
 
@@ -42,9 +46,10 @@ def make_point(name: str, observer: str, changes: Changes) -> Point:
 
 def gain_point(observer: str, case: str, arm: str, gain: float) -> Point:
     """The allocation at ``gain`` times its exact gain: by the believed factors, or the start of the adaptation."""
+    changes = {} if case == "none" else dict(EARLY)
     if arm == "with":
-        return make_point(preset(case, arm), observer, {START: (gain / sum(FACTORS), 0.0, 0.0)})
-    return make_point(preset(case, arm), observer, {BELIEVED: tuple(k / gain for k in FACTORS)})
+        return make_point(preset(case, arm), observer, {START: (gain / sum(FACTORS), 0.0, 0.0), **changes})
+    return make_point(preset(case, arm), observer, {BELIEVED: tuple(k / gain for k in FACTORS), **changes})
 
 
 def run_points(points: Iterable[Point], progress: Progress | None = None, grid: Changes = GRID) -> dict[Point, Outcome]:

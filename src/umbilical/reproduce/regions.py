@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from umbilical.reproduce.experiments import ARMS, OBSERVERS
-from umbilical.reproduce.ledger import Kind, Number, percent, short
-from umbilical.reproduce.points import GRID, Changes, gain_point, run_points
+from umbilical.reproduce.experiments import ARMS, GRIDS, OBSERVERS
+from umbilical.reproduce.ledger import Edge, Kind, Number, percent, short
+from umbilical.reproduce.points import GRID, Changes, Point, gain_point, run_points
+from umbilical.reproduce.slices import GAIN_CASES, GAINS
 from umbilical.reproduce.work import Progress
 
 if TYPE_CHECKING:
     import xarray
 
+Place = tuple[str, str, str]
+"""Case, arm and observer."""
+CASE_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 HALVINGS = 5
-"""Of a step between two gains of the scan, a factor of 1.19: the edge is then known to half a per cent."""
-GRIDS = (8, 16, 64)
-"""Numbers of elements on which an edge must be the same."""
+"""Of a step between two gains of the scan, a factor of 1.26: the edge is then known to 0.8 per cent."""
 NEAR = 1.03
 """Factor below and above an edge at which the grids are asked."""
 
@@ -37,60 +40,98 @@ def diverged(data: xarray.Dataset, arm: str) -> tuple[int, int]:
     return int(lost.sum()), lost.size
 
 
-def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[str, float]:
-    """Least gain of the allocation at which the loop runs away, no fault, by ``arm, observer``.
+def without_repeats(data: xarray.Dataset) -> xarray.Dataset:
+    """A map with each run of fault control once: what the factors are believed to be means nothing to it."""
+    return data.isel(believed_ratio=[0]) if "believed_ratio" in data.dims else data
+
+
+def better(data: xarray.Dataset, arm: str, observer: str) -> np.ndarray:
+    """In which cells of a map an arm has the lower peak than known factors."""
+    peaks = data["peak"].sel(observer=observer)
+    return (peaks.sel(arm=arm) < peaks.sel(arm="without")).values
+
+
+def row(data: xarray.Dataset, along: str) -> xarray.Dataset:
+    """The cells of a map along one of its axes, the other number being that of the presets."""
+    across, at = ("y", "paper_y") if data.attrs["x"] == along else ("x", "paper_x")
+    return data.sel({data.attrs[across]: data.attrs[at]}, method="nearest")
+
+
+def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[Place, Edge]:
+    """Least gain of the allocation at which the loop runs away, by case, arm and observer.
 
     Bisection between the last gain of the scan that stays and the first that does not; nan where all stay.
     """
-    places = {(arm, observer): _bracket(gain.sel(arm=arm, observer=observer)) for arm in ARMS for observer in OBSERVERS}
+    places: list[Place] = [*product(GAIN_CASES, ARMS, OBSERVERS)]
+    brackets: dict[Place, tuple[float, float]] = {place: _bracket(gain, place) for place in places}
     for step in range(HALVINGS):
-        middles = {place: float(np.sqrt(low * high)) for place, (low, high) in places.items() if np.isfinite(high)}
-        points = {place: gain_point(place[1], "none", place[0], middle) for place, middle in middles.items()}
-        found = run_points(points.values())
-        for place, middle in middles.items():
-            low, high = places[place]
-            places[place] = (low, middle) if np.isnan(found[points[place]].peak) else (middle, high)
+        brackets = _halved(brackets)
         if progress:
             progress((step + 1) / HALVINGS)
     return {
-        f"{arm}, {observer}": high if np.isfinite(high) else float("nan")
-        for (arm, observer), (_, high) in places.items()
+        place: Edge(high, bool(np.isfinite(high)) and same_on_grids(high, place))
+        for place, (_, high) in brackets.items()
     }
 
 
-def _bracket(gain: xarray.Dataset) -> tuple[float, float]:
+def _bracket(gain: xarray.Dataset, place: Place) -> tuple[float, float]:
     """The last gain that stays before the first that runs away, and that one."""
-    peaks, gains = gain["peak"].sel(case="none").values, gain["gain"].values
+    peaks, gains = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values, GAINS
     lost = np.flatnonzero(np.isnan(peaks))
     if not lost.size:
-        return float(gains[-1]), float("inf")
-    return float(gains[max(lost[0] - 1, 0)]), float(gains[lost[0]])
+        return gains[-1], float("nan")
+    return gains[max(lost[0] - 1, 0)], gains[lost[0]]
 
 
-def same_on_grids(edge: float, arm: str, observer: str) -> bool:
+def _halved(brackets: Mapping[Place, tuple[float, float]]) -> dict[Place, tuple[float, float]]:
+    """Brackets half as wide, on the scale of logarithms."""
+    middles = {place: float(np.sqrt(low * high)) for place, (low, high) in brackets.items() if np.isfinite(high)}
+    points = {place: _point(place, middle) for place, middle in middles.items()}
+    found = run_points(points.values())
+    lost = {place: np.isnan(found[point].peak) for place, point in points.items()}
+    return dict(brackets) | {
+        place: (brackets[place][0], middle) if lost[place] else (middle, brackets[place][1])
+        for place, middle in middles.items()
+    }
+
+
+def _point(place: Place, gain: float) -> Point:
+    case, arm, observer = place
+    return gain_point(observer, case, arm, gain)
+
+
+def same_on_grids(edge: float, place: Place) -> bool:
     """Whether the loop stays just below an edge and runs away just above it on every grid."""
-    points = [gain_point(observer, "none", arm, edge * factor) for factor in (1.0 / NEAR, NEAR)]
+    points = [_point(place, edge * factor) for factor in (1.0 / NEAR, NEAR)]
     grids: list[Changes] = [{**GRID, "grid.elements": elements} for elements in GRIDS]
     found = [[np.isnan(outcome.peak) for outcome in run_points(points, grid=grid).values()] for grid in grids]
     return all(lost == [False, True] for lost in found)
 
 
-def runaways(found: Mapping[str, float], arm: str) -> Region:
-    """The gains from which on the loop of an arm runs away, with and without the disturbance observer."""
-    names = {f"edge_{observer}": found[f"{arm}, {observer}"] for observer in OBSERVERS}
-    meaning = "gain from which on it runs away, no fault, observer {}"
+def runaways(found: Mapping[Place, Edge], arm: str) -> Region:
+    """The gains from which on the loop of an arm runs away, healthy and with a dead motor."""
+    places = list(product(GAIN_CASES, OBSERVERS))
+    gains = {(case, observer): found[case, arm, observer] for case, observer in places}
     numbers = tuple(
-        Number(name, value, "1", meaning.format(name.removeprefix("edge_")), Kind.EDGE) for name, value in names.items()
+        Number(
+            f"edge_{observer}" if case == "none" else f"edge_{case}_{observer}",
+            gains[case, observer].gain,
+            "1",
+            f"gain from which on it runs away, {CASE_WORDS[case]}, observer {observer}",
+            Kind.EDGE,
+        )
+        for case, observer in places
     )
-    on, off = (names[f"edge_{observer}"] for observer in OBSERVERS)
-    same = bool(found.get("same on grids", False))
-    words = (
-        f"What does drive it apart is a gain that is too large, before any fault: factors believed {short(on)} times "
-        "too "
-        f"small, {short(off)} times without the observer "
-        f"({'the same' if same else 'NOT the same'} on {', '.join(map(str, GRIDS))} elements)."
+    on, off, dead_on, dead_off = (short(gains[place].gain) for place in places)
+    same = all(edge.same for edge in gains.values())
+    elements, near = ", ".join(map(str, GRIDS)), percent(NEAR - 1.0)
+    grids = f"{'the same' if same else 'NOT the same'} on {elements} elements, each within {near}"
+    return Region(
+        numbers,
+        f"What does drive it apart is a gain that is too large: {on} times the exact one, {off} times without the "
+        f"disturbance observer. A motor that dies at the start lowers the gain, so that it takes {dead_on} and "
+        f"{dead_off} times ({grids}).",
     )
-    return Region(numbers, words)
 
 
 def reversal(gain: xarray.Dataset) -> Region:
@@ -103,8 +144,8 @@ def reversal(gain: xarray.Dataset) -> Region:
     belief = 1.0 / _crossing(gains, peaks.sel(arm="without").values, preset)
     same = float(np.interp(0.0, np.log(gains), peaks.sel(arm="with").values)) / exact
     numbers = (
-        Number("start_gain", start, "1", "gain at the start from which on fault control is better", Kind.EDGE),
-        Number("belief_ratio", belief, "1", "believed over true factors from which on it is better", Kind.EDGE),
+        Number("start_gain", start, "1", "gain at the start from which on fault control is better", Kind.CROSSING),
+        Number("belief_ratio", belief, "1", "believed over true factors from which on it is better", Kind.CROSSING),
         Number("same_start", same, "1", "peak with over without fault control, both starting at the exact gain"),
     )
     bounds = [

@@ -12,12 +12,12 @@ from umbilical.engine.simulate import simulate
 from umbilical.formats import to_netcdf
 from umbilical.plots.figure import render
 from umbilical.plots.paper.style import RESOLUTION
-from umbilical.reproduce import regions
 from umbilical.reproduce.claims import judge
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
 from umbilical.reproduce.figures import PICTURES, Picture, needed
 from umbilical.reproduce.ledger import Evidence, Finding
-from umbilical.reproduce.slices import compute_slices
+from umbilical.reproduce.regions import edges
+from umbilical.reproduce.slices import GAIN, MAPS, NAMES, compute_slices
 from umbilical.reproduce.tabular import to_csv
 from umbilical.reproduce.work import Progress, in_parallel, parts
 from umbilical.studies.engines import worker_processes
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 REPORT = "report.html"
 KINDS = ("png", "pdf", "nc", "csv")
 """Files of every figure."""
-EDGE = "same on grids"
 
 
 class Shown(NamedTuple):
@@ -44,9 +43,14 @@ class Reproduction(NamedTuple):
     """Everything that was found; ``findings`` are empty where only some figures were asked for."""
 
     runs: Runs
-    maps: Mapping[str, xarray.Dataset]
+    scans: Mapping[str, xarray.Dataset]
     shown: tuple[Shown, ...]
     findings: tuple[Finding, ...]
+
+    @property
+    def mapped(self) -> bool:
+        """Whether the maps were made."""
+        return any(name in self.scans for name in MAPS)
 
 
 def choose(names: Sequence[str], *, maps: bool) -> tuple[Picture, ...]:
@@ -55,8 +59,8 @@ def choose(names: Sequence[str], *, maps: bool) -> tuple[Picture, ...]:
     Raises:
         KeyError: there is no such figure.
     """
-    chosen = [PICTURES[name] for name in names] or list(PICTURES.values())
-    return tuple(picture for picture in chosen if maps or not picture.mapped)
+    chosen = [PICTURES[name] for name in dict.fromkeys(names)] or list(PICTURES.values())
+    return tuple(picture for picture in chosen if maps or picture.name not in MAPS)
 
 
 def reproduce(
@@ -74,26 +78,26 @@ def reproduce(
         KeyError: there is no such figure.
     """
     pictures = choose(names, maps=maps)
-    mapped = any(picture.mapped for picture in pictures)
-    running, mapping, edging, drawing = parts(progress, [8.0, *([60.0, 2.0] if mapped else [0.0, 0.0]), 10.0])
+    wanted = {picture.name for picture in pictures if picture.scanned}
+    scans = [name for name in NAMES if name in wanted]
+    shares = [8.0, 3.0 + 12.0 * sum(name in MAPS for name in scans) if scans else 0.0, 0.0 if names else 2.0, 10.0]
+    running, scanning, edging, drawing = parts(progress, shares)
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
-    slices = compute_slices(mapping) if mapped else {}
-    findings = () if names else judge(Evidence(runs, slices, find_edges(slices, edging)))
-    return Reproduction(runs, slices, show_all(pictures, runs, slices, processes, drawing), findings)
+    found = compute_slices(scans, scanning)
+    findings = () if names else judge(evidence(runs, found, edging))
+    return Reproduction(runs, found, show_all(pictures, runs, found, processes, drawing), findings)
+
+
+def evidence(runs: Runs, scans: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> Evidence:
+    """What claims are judged by, from runs and scans, with the edges of stability looked for."""
+    gain, maps = scans[GAIN], {name: scans[name] for name in MAPS if name in scans}
+    return Evidence(runs, gain, edges(gain, progress), maps)
 
 
 def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:
     """Runs of some experiments, by name."""
     scenarios = [EXPERIMENTS[name].scenario() for name in names]
     return dict(zip(names, in_parallel(simulate, scenarios, progress), strict=True))
-
-
-def find_edges(slices: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> dict[str, float]:
-    """Edges of stability, and whether three grids agree on the first."""
-    if not slices:
-        return {}
-    found = regions.edges(slices["gain"], progress)
-    return {**found, EDGE: float(regions.same_on_grids(found["without, on"], "without", "on"))}
 
 
 def show_all(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from umbilical.reproduce.work import Progress
 if TYPE_CHECKING:
     import xarray
 
-BOXED = "with, in a box"
+BOXED = "boxed"
 RIM = BOX["control.allocation.upper"][0]
 PRESET_RATES = (0.1, 100.0, 100.0)
 Place = tuple[str | float, ...]
@@ -54,7 +54,7 @@ class Slice:
         """Every place (observer, arm, y, x) with its run."""
         for observer, arm, y, x in product(OBSERVERS, self.arms, self.y.values, self.x.values):
             name, changes = self.setting(arm, x, y)
-            yield (self.name, observer, arm, y, x), make_point(name, observer, changes)
+            yield (observer, arm, y, x), make_point(name, observer, changes)
 
 
 def _steps(low: float, high: float) -> tuple[float, ...]:
@@ -71,8 +71,10 @@ def _failing(arm: str, instant: float, effectiveness: float) -> tuple[str, Chang
 
 def _stuck(arm: str, ratio: float, value: float) -> tuple[str, Changes]:
     """Fault control uses no factors, so the ratio means nothing to it and one run serves a whole row."""
-    believed = {BELIEVED: tuple(k * ratio for k in FACTORS)} if arm == "without" else {}
-    return preset("stuck", arm), {"faults.1.value": value, **believed}
+    changes: dict[str, Any] = {"faults.1.value": value}
+    if arm == "without":
+        return preset("stuck", arm), changes | {BELIEVED: tuple(k * ratio for k in FACTORS)}
+    return preset("stuck", "with"), changes | (BOX if arm == BOXED else {})
 
 
 def _adapting(arm: str, factor: float, start: float) -> tuple[str, Changes]:
@@ -98,6 +100,7 @@ SLICES = (
         Axis("believed_ratio", "believed / true factors", _powers(1.0, 2.0 ** (1 / 7), 7), 1.0, scale="log"),
         Axis("stuck_value", "stuck value", _steps(-700.0, 700.0), 100.0, "rad2/s2"),
         _stuck,
+        (*ARMS, BOXED),
     ),
     Slice(
         "map-rates",
@@ -109,46 +112,55 @@ SLICES = (
     ),
 )
 
-GAINS = _powers(1.0, 2.0**0.25, 8, 21)
+GAINS = _powers(1.0, 2.0 ** (1 / 3), 6, 17)
 """Gain of the allocation at the start, sum of the true thrust factors times kappa_0: 1 is exact."""
 GAIN_CASES = ("none", "dead")
+GAIN = "gain"
+"""Name of the scan, which is made with and without the maps."""
+MAPS = tuple(one.name for one in SLICES)
+NAMES = (*MAPS, GAIN)
 
 
-def compute_slices(progress: Progress | None = None) -> dict[str, xarray.Dataset]:
-    """Every map, and ``gain``, by name."""
-    places = {place: point for one in SLICES for place, point in one.points()}
-    gains = list(product(OBSERVERS, GAIN_CASES, ARMS, GAINS))
-    places |= {("gain", *place): gain_point(*place) for place in gains}
-    found = run_points(places.values(), progress)
-    outcomes = {place: found[point] for place, point in places.items()}
-    return {one.name: _map(one, outcomes) for one in SLICES} | {"gain": _gain(outcomes)}
+def compute_slices(names: Collection[str] = NAMES, progress: Progress | None = None) -> dict[str, xarray.Dataset]:
+    """The scan of the gain and the maps of these names, by name."""
+    chosen = [one for one in SLICES if one.name in names]
+    places = {one.name: dict(one.points()) for one in chosen}
+    if GAIN in names:
+        places[GAIN] = {place: gain_point(*place) for place in gain_places()}
+    found = run_points([point for points in places.values() for point in points.values()], progress)
+    outcomes = {name: [found[point] for point in points.values()] for name, points in places.items()}
+    maps = {one.name: _map(one, outcomes[one.name]) for one in chosen}
+    return maps | ({GAIN: _gain(outcomes[GAIN])} if GAIN in names else {})
 
 
-def _map(one: Slice, outcomes: Mapping[Place, Outcome]) -> xarray.Dataset:
+def gain_places() -> Iterator[tuple[str, str, str, float]]:
+    """Observer, case, arm and gain of every run of the scan."""
+    return product(OBSERVERS, GAIN_CASES, ARMS, GAINS)
+
+
+def _map(one: Slice, outcomes: Sequence[Outcome]) -> xarray.Dataset:
     import xarray
 
-    cells = {place: outcomes[place] for place, _ in one.points()}
     coordinates = {axis.name: axis.coordinate() for axis in (one.y, one.x)}
     attributes = {"title": one.title, "x": one.x.name, "y": one.y.name, "paper_x": one.x.paper, "paper_y": one.y.paper}
     return xarray.Dataset(
-        *_table(cells, {"observer": list(OBSERVERS), "arm": list(one.arms), **coordinates}), attrs=attributes
+        *_table(outcomes, {"observer": list(OBSERVERS), "arm": list(one.arms), **coordinates}), attrs=attributes
     )
 
 
-def _gain(outcomes: Mapping[Place, Outcome]) -> xarray.Dataset:
+def _gain(outcomes: Sequence[Outcome]) -> xarray.Dataset:
     import xarray
 
-    cells = {place: outcome for place, outcome in outcomes.items() if place[0] == "gain"}
     axis = Axis("gain", "gain of the allocation at the start (1: exact)", GAINS, 1.0, scale="log")
     arms = {"observer": list(OBSERVERS), "case": list(GAIN_CASES), "arm": list(ARMS), "gain": axis.coordinate()}
-    return xarray.Dataset(*_table(cells, arms), attrs={"title": "Gain of the allocation"})
+    return xarray.Dataset(*_table(outcomes, arms), attrs={"title": "Gain of the allocation"})
 
 
-def _table(cells: Mapping[Place, Outcome], coordinates: dict) -> tuple[dict, dict]:
+def _table(outcomes: Sequence[Outcome], coordinates: dict) -> tuple[dict, dict]:
     """Outcomes in the order of the coordinates, as variables and coordinates of a dataset."""
     peak = {"units": "m", "long_name": "largest |y(l,t)| after the fault; none where diverged", "symbol": "|y(l,t)|"}
     end = {"units": "s", "long_name": "instant the run ended at", "symbol": "t"}
     sizes = [len(c[1]) if isinstance(c, tuple) else len(c) for c in coordinates.values()]
-    values = np.array(list(cells.values())).reshape(*sizes, 2)
+    values = np.array(outcomes).reshape(*sizes, 2)
     dims = tuple(coordinates)
     return {"peak": (dims, values[..., 0], peak), "end_time": (dims, values[..., 1], end)}, coordinates

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-FAULT_WORDS = {"none": "no fault", "dead": "dead"}
+FAULT_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 LARGEST_KAPPA = 5.0
 """rad2/(N s2), ten times the exact value: beyond, the loop has gone."""
 
@@ -39,14 +39,21 @@ def draw_adaptation(data: xarray.Dataset) -> Figure:
             values = data[name].sel(arm=arm).dropna("time")
             line(ax, values, str(arm))
             if values.sizes["time"] < data.sizes["time"]:
-                ax.plot(values["time"][-1], min(float(values[-1]), LARGEST_KAPPA), "x", color=LOOKS[arm].colour, ms=4)
+                ax.plot(
+                    values["time"][-1],
+                    min(float(values[-1]), LARGEST_KAPPA),
+                    "x",
+                    color=LOOKS[arm].colour,
+                    ms=4,
+                    clip_on=False,
+                )
         panel(ax, f"{letter(number)} {data[name].attrs['long_name']}", unit_label(data[name]))
     panels[0].set_yscale("log")
     panels[0].set_ylim(bottom=1e-3)
     log_axis(panels[0].yaxis)
     panels[1].set_ylim(0.0, LARGEST_KAPPA)
     time_panels(panels, data)
-    legend(figure, panels[0], 2)
+    legend(figure, 2)
     return figure
 
 
@@ -63,7 +70,7 @@ def draw_gain(data: xarray.Dataset) -> Figure:
         ax.axvline(1.0, color=QUIET, linewidth=0.7, linestyle=":")
         ax.tick_params(labelbottom=ax is panels[-1])
     panels[-1].set_xlabel(str(data["gain"].attrs["long_name"]), fontsize=TYPE)
-    legend(figure, panels[0], 2)
+    legend(figure, 2)
     return figure
 
 
@@ -74,7 +81,7 @@ def _scan(ax: Axes, peaks: xarray.DataArray) -> None:
     for k, (case, arm) in enumerate(pairs):
         values = peaks.sel(case=case, arm=arm).values
         lost = gains[np.isnan(values)]
-        name = f"{FAULT_WORDS[str(case)]}, {arm}"
+        name = f"{FAULT_WORDS[str(case)]}, {LOOKS[str(arm)].words}"
         ax.plot(gains, values, ".-", color=COLOURS[k], linewidth=0.9, markersize=3, label=name)
         height = np.full(lost.size, 0.97 - 0.06 * k)
         ax.plot(lost, height, "x", color=COLOURS[k], markersize=3.5, transform=ax.get_xaxis_transform())

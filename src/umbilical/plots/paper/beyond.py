@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+INK = COLOURS[6]
+ROWS = 500
+"""Of pixels along the cable, more than a panel has."""
 NEGLIGIBLE = 0.02
 """Share of the largest work below which a line would lie on zero."""
 WORK_DASHES = ((), (4, 1.5), (1, 1), (6, 1.5, 1, 1.5))
@@ -44,18 +47,19 @@ def draw_spacetime(data: xarray.Dataset) -> Figure:
 
 
 def _cable(figure: Figure, ax: Axes, y: xarray.DataArray, length: xarray.DataArray) -> None:
-    depth = length.values[:, None] * y["sigma"].values[None, :]
-    times = np.broadcast_to(y["time"].values[:, None], depth.shape)
+    """One map with its own colours; a power of ten stands in the label, so that all bars are alike."""
+    times, longest = y["time"].values, float(length.max())
+    x = np.linspace(0.0, longest, ROWS)
+    ends = zip(length.values, y.values, strict=True)
+    values = np.array([np.interp(x, y["sigma"].values * end, row, right=np.nan) for end, row in ends])
     size = float(np.abs(y.values).max())
-    picture = ax.pcolormesh(
-        times, depth, y.values, cmap="RdBu_r", vmin=-size, vmax=size, shading="gouraud", rasterized=True
-    )
+    power = 3 * int(np.floor(np.log10(size) / 3.0))
+    look = {"cmap": "RdBu_r", "vmin": -size / 10.0**power, "vmax": size / 10.0**power, "aspect": "auto"}
+    picture = ax.imshow(values.T / 10.0**power, extent=(times[0], times[-1], longest, 0.0), **look)
     bar = figure.colorbar(picture, ax=ax, pad=0.02)
-    bar.set_label(unit_label(y), fontsize=TYPE)
+    unit = unit_label(y)
+    bar.set_label(unit.replace("[", f"[$10^{{{power}}}$ ") if power else unit, fontsize=TYPE)
     bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
-    bar.ax.ticklabel_format(style="sci", scilimits=(-2, 3), useMathText=True)
-    bar.ax.yaxis.get_offset_text().set_fontsize(TYPE - 1)
-    ax.set_ylim(float(length.max()), 0.0)
 
 
 def draw_energy(data: xarray.Dataset) -> Figure:
@@ -63,18 +67,17 @@ def draw_energy(data: xarray.Dataset) -> Figure:
     figure, panels = column(data.sizes["controller"], 1.35)
     for number, (ax, who) in enumerate(zip(panels, data["controller"].values, strict=True)):
         one = data.sel(controller=who)
-        line(ax, one["energy"], "ideal", "energy")
         for k, source in enumerate(_large(data["work"])):
             (drawn,) = ax.plot(one["time"], one["work"].sel(source=source), color=COLOURS[k], linewidth=1.0)
             drawn.set_label(str(source))
             if WORK_DASHES[k % len(WORK_DASHES)]:
                 drawn.set_dashes(WORK_DASHES[k % len(WORK_DASHES)])
-        residual = float(one["residual"])
-        panel(ax, f"{letter(number)} {LOOKS[str(who)].words}; closes to {residual:.0e}", unit_label(data["energy"]))
+        ax.plot(one["time"], one["energy"], color=INK, linewidth=0.7, label="energy")
+        panel(ax, f"{letter(number)} {LOOKS[str(who)].words}", unit_label(data["energy"]))
         ax.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
         ax.yaxis.get_offset_text().set_fontsize(TYPE - 1)
     time_panels(panels, data)
-    legend(figure, panels[0], 3)
+    legend(figure, 4)
     return figure
 
 
@@ -86,19 +89,20 @@ def _large(work: xarray.DataArray) -> list[str]:
 
 
 def draw_lyapunov(data: xarray.Dataset) -> Figure:
-    """``lyapunov`` over ``case``, ``part`` and ``time``, on a logarithmic axis; parts that change sign are left out."""
+    """``lyapunov`` over ``case``, ``part`` and ``time``, on a logarithmic axis; V_2 changes sign, its size is drawn."""
     values = data["lyapunov"]
     figure, panels = column(values.sizes["case"], 1.5)
     for number, (ax, case) in enumerate(zip(panels, values["case"].values, strict=True)):
-        for who, part in (("none", "V_1"), ("proposed", "V"), ("pd", "V_3")):
-            line(ax, values.sel(case=case, part=part), who, f"${part}$")
+        ax.plot(values["time"], values.sel(case=case, part="V"), color=COLOURS[5], linewidth=3.0, label="$V$")
+        for who, part in (("proposed", "V_1"), ("load", "V_2"), ("pd", "V_3")):
+            line(ax, abs(values.sel(case=case, part=part)), who, f"$|{part}|$" if part == "V_2" else f"${part}$")
         panel(ax, f"{letter(number)} {case}", unit_label(values))
         ax.set_yscale("log")
-        ax.set_ylim(1e-4, 2.0 * float(values.max()))
+        ax.set_ylim(1e-9, 2.0 * float(values.max()))
         log_axis(ax.yaxis)
     time_panels(panels, data, marked=False)
     mark_fault(panels[-1], float(data.attrs["fault_time"]))
-    legend(figure, panels[0])
+    legend(figure, 5)
     return figure
 
 
@@ -112,5 +116,5 @@ def draw_kappa(data: xarray.Dataset) -> Figure:
         line(ax, data[f"{name}_ideal"].sel(case=case), "ideal", "ideal")
         panel(ax, f"{letter(number)} motor {data.attrs['fault_motor']} {case}", unit_label(data[name]))
     time_panels(panels, data)
-    legend(figure, panels[0])
+    legend(figure)
     return figure

@@ -22,7 +22,7 @@ def draw_positions(data: xarray.Dataset) -> Figure:
             line(ax, y.sel(controller=who, place=place), str(who))
         panel(ax, f"{letter(number)} $x = {place}$", unit_label(y))
     time_panels(panels, data)
-    legend(figure, panels[0])
+    legend(figure)
     return figure
 
 
@@ -37,5 +37,5 @@ def draw_midpoint(data: xarray.Dataset) -> Figure:
     ax.set_ylim(1e-5, 2.0 * float(np.nanmax(y.values)))
     log_axis(ax.yaxis)
     time_panels([ax], data)
-    legend(figure, ax)
+    legend(figure)
     return figure

@@ -29,7 +29,7 @@ def draw_states(data: xarray.Dataset) -> Figure:
     time_panels(panels[:2], data)
     peak = float(abs(rate).sel(time=slice(START_OVER, None)).idxmax("time"))
     _near(panels[2], rate, data["tip_slope_rate_estimate"], (peak - 0.5, peak + 1.0), "(c) the same, near")
-    legend(figure, panels[0])
+    legend(figure)
     return figure
 
 
@@ -50,7 +50,7 @@ def draw_disturbances(data: xarray.Dataset) -> Figure:
         else:
             _pair(ax, one, other, title)
             time_panels([ax], data)
-    legend(figure, panels[0])
+    legend(figure)
     return figure
 
 
@@ -81,7 +81,7 @@ def draw_absorption(data: xarray.Dataset) -> Figure:
             f"{letter(number)} motor {data.attrs['fault_motor']} {case}",
         )
     time_panels(panels, data)
-    legend(figure, panels[0])
+    legend(figure, 4)
     return figure
 
 

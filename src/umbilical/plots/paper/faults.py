@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.plots.paper.style import column, legend, letter, line, mark_fault, panel, time_panels, unit_label
+from umbilical.plots.paper.style import column, legend, line, mark_fault, panel, time_panels, unit_label
 
 if TYPE_CHECKING:
     import xarray
@@ -22,9 +22,9 @@ def draw_boundary(data: xarray.Dataset) -> Figure:
     for ax, case in zip(panels, cases, strict=True):
         for arm in y["arm"].values:
             line(ax, y.sel(case=case, arm=arm), str(arm))
-        panel(ax, _title(str(case), data), unit_label(y))
+        panel(ax, _title(str(case), data, str(cases.index(case) + 1)), unit_label(y))
     _mark(panels, cases, data)
-    legend(figure, panels[0], 2)
+    legend(figure, 3)
     return figure
 
 
@@ -49,12 +49,13 @@ def _motors(data: xarray.Dataset, name: str) -> Figure:
             line(ax, values.sel(case=case, arm=arm, motor=motor), str(arm))
         panel(ax, f"{_title(str(case), data)}: motor {motor}", unit_label(values))
     _mark(panels, shown, data)
-    legend(figure, panels[0], 2)
+    legend(figure, 3)
     return figure
 
 
-def _title(case: str, data: xarray.Dataset) -> str:
-    return f"{letter(1)} no fault" if case == HEALTHY else f"{letter(0)} motor {data.attrs['fault_motor']} {case}"
+def _title(case: str, data: xarray.Dataset, number: str = "") -> str:
+    """(b) without a fault, (a) with one, as in the paper; numbered where there are several."""
+    return "(b) no fault" if case == HEALTHY else f"(a{number}) motor {data.attrs['fault_motor']} {case}"
 
 
 def _mark(panels: list[Axes], cases: list[str], data: xarray.Dataset) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -34,14 +35,14 @@ LOOKS = {
     "none": Look("no control", COLOURS[6], (1, 1)),
     "pd": Look("PD", COLOURS[1], (4, 1.5)),
     "proposed": Look("proposed", COLOURS[0]),
-    "without": Look("without fault control", COLOURS[0]),
-    "with": Look("with fault control", COLOURS[1], (4, 1.5)),
+    "without": Look("known factors", COLOURS[0]),
+    "with": Look("fault control", COLOURS[1], (4, 1.5)),
     "truth": Look("actual", COLOURS[0]),
     "estimate": Look("estimated", COLOURS[1], (4, 1.5)),
     "load": Look("load $d$", COLOURS[2], (1, 1)),
     "ideal": Look("ideal", COLOURS[6], (1, 1), 0.8),
-    "boxed": Look("with it, in a box", COLOURS[2], (6, 1.5, 1, 1.5)),
-    "fast": Look("with it, ten times faster", COLOURS[3], (2, 1)),
+    "boxed": Look(r"the same, $\kappa$ in a box", COLOURS[2], (6, 1.5, 1, 1.5)),
+    "fast": Look("fault control, ten times faster", COLOURS[3], (2, 1)),
 }
 """Every kind of line by the name its data give it."""
 
@@ -67,9 +68,12 @@ def line(ax: Axes, array: xarray.DataArray, who: str, words: str | None = None) 
 
 def panel(ax: Axes, title: str, ylabel: str, xlabel: str = "") -> None:
     """Title at the left, labels, ticks and grid in the type of the page."""
+    from matplotlib.ticker import MaxNLocator
+
     ax.set_title(title, fontsize=TYPE, loc="left", pad=3)
     ax.set_ylabel(ylabel, fontsize=TYPE)
     ax.set_xlabel(xlabel, fontsize=TYPE)
+    ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10], min_n_ticks=3))
     ax.tick_params(labelsize=TYPE - 0.5, length=2, pad=2)
     ax.grid(alpha=0.25, linewidth=0.4)
     ax.spines[["top", "right"]].set_visible(False)
@@ -90,24 +94,17 @@ def time_panels(panels: Sequence[Axes], data: xarray.Dataset, *, marked: bool = 
 
 
 def mark_fault(ax: Axes, instant: float) -> None:
-    """The instant a motor fails."""
-    ax.axvline(instant, color=QUIET, linewidth=0.7, linestyle="--", zorder=0.5)
-    ax.annotate(
-        "fault",
-        (instant, 1.0),
-        xycoords=("data", "axes fraction"),
-        xytext=(2, -1),
-        textcoords="offset points",
-        va="top",
-        fontsize=TYPE - 1,
-        color=QUIET,
-    )
+    """The instant a motor fails; the legend names it, where no curve can run over the word."""
+    ax.axvline(instant, color=QUIET, linewidth=0.7, linestyle="--", zorder=0.5, label="fault")
 
 
-def legend(figure: Figure, ax: Axes, columns: int = 3) -> None:
-    """The names of the lines of one panel above the whole figure, where no curve is."""
+def legend(figure: Figure, columns: int = 3) -> None:
+    """The names of all lines, each once, above the whole figure, where no curve is."""
+    named = {name: handle for ax in figure.axes for handle, name in zip(*ax.get_legend_handles_labels(), strict=True)}
+    names = sorted(named, key="fault".__eq__)
     figure.legend(
-        *ax.get_legend_handles_labels(),
+        [named[name] for name in names],
+        names,
         loc="outside upper center",
         ncols=columns,
         fontsize=TYPE,
@@ -125,7 +122,17 @@ def letter(number: int) -> str:
 
 def unit_label(array: xarray.DataArray) -> str:
     """Symbol and unit, from the data."""
-    return axis_label(array)
+    return raised(axis_label(array))
+
+
+def raised(label: str) -> str:
+    """A label with the powers in its unit raised.
+
+    >>> raised("stuck value [rad2/s2]")
+    'stuck value [rad$^2$/s$^2$]'
+    """
+    words, bracket, unit = label.rpartition("[")
+    return words + bracket + re.sub(r"(?<=[a-z])(\d)", r"$^\1$", unit)
 
 
 def log_axis(axis: Axis, ticks: int = 6) -> None:
