@@ -24,10 +24,15 @@ RESERVES = (1.0, 2.0, 4.0)
 """How many reserves are asked for, one after the other, until rounded gains keep the margins."""
 SAFER = 0.95
 """A ceiling is so much of what the last simulation would allow: effort and simulation are not proportional."""
+TAMER = 0.5
+"""The same where a simulation did not come to its end and says nothing else."""
 SEARCH, TRIAL = 0.7, 0.3
 """Shares of a round's progress."""
 LIKELY = 0.6
 """Share of the progress still ahead that a round is given: mostly there is one only."""
+
+Excess = dict[str, tuple[float, float]]
+"""Value and limit of what is too large, by name."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +49,8 @@ class Limits:
     speed: float = np.inf
     chatter: float = 0.05
 
-    def exceeded(self, trial: Trial) -> dict[str, tuple[float, float]]:
-        """Value and limit of what is too large, by name; nothing is, where there is no number."""
+    def exceeded(self, trial: Trial) -> Excess:
+        """What is too large; nothing is, where there is no number."""
         values = {"voltage": trial.voltage_peak, "speed": trial.speed_peak, "chatter": trial.chatter}
         return {name: (x, getattr(self, name)) for name, x in values.items() if x > getattr(self, name)}
 
@@ -111,10 +116,10 @@ def design_within(task: Task, limits: Limits, progress: Callable[[float], None])
         done += ahead
         now = tried[-1][1]
         over = limits.exceeded(now.trial)
-        if not over:
+        if not now.kept or (now.trial.completed and not over):
             break
         names |= set(over)
-        task = replace(task, ceilings=_lowered(task.ceilings, now.score.effort, over))
+        task = replace(task, ceilings=_lowered(task.ceilings, now, over))
     values, best = min(tried, key=lambda pair: _badness(pair[1], limits))
     return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else ())
 
@@ -143,10 +148,12 @@ def _keeps(task: Task, values: Values) -> bool:
     return all(task.demands.met_by(j.margins, period) for j in _report(task, values).judgements)
 
 
-def _lowered(ceilings: Effort, effort: Effort, over: dict[str, tuple[float, float]]) -> Effort:
-    """Ceilings under which the next gains should keep the limits that these exceed."""
-    now = ceilings._asdict()
-    return Effort(**now | {name: SAFER * getattr(effort, name) * limit / x for name, (x, limit) in over.items()})
+def _lowered(ceilings: Effort, now: Side, over: Excess) -> Effort:
+    """Ceilings under which the next gains should keep the limits that these exceed, or run to the end."""
+    shares = {name: SAFER * limit / x for name, (x, limit) in over.items()}
+    if not now.trial.completed:
+        shares = {"voltage": TAMER, "speed": TAMER}
+    return Effort(**ceilings._asdict() | {name: x * getattr(now.score.effort, name) for name, x in shares.items()})
 
 
 def _badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:

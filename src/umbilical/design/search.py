@@ -23,6 +23,8 @@ DIGITS = 4
 """Significant digits of a gain that is found; more would say something about the search only."""
 STRICTNESS = 100.0
 """Cost of a round trip 1 too large: a tenth of it outweighs any reflection."""
+WORST = 1e4
+"""Cost of an unstable pole: nothing else means anything then."""
 FIRMER = 0.02
 """By so much, in logarithms, the ROV shall be held firmer than before where both are asked for."""
 LOCAL_STEPS = 40
@@ -53,7 +55,10 @@ def outer_knobs(scenario: Scenario, wave_speed: float) -> list[Knob]:
 
 
 def inner_knobs(scenario: Scenario) -> list[Knob]:
-    """k_1, k_2 and the command filter, as far as the period allows beside the robust terms."""
+    """k_1, k_2 and the command filter, as far as the period allows beside the robust terms.
+
+    The robust terms are in the linear loop, but fade at large errors: the gains shall be no less than they.
+    """
     loop, fastest = scenario.control.motor_loop, 0.9 / scenario.control.period
     if loop is None or scenario.ideal_thruster:
         return []
@@ -61,8 +66,8 @@ def inner_knobs(scenario: Scenario) -> list[Knob]:
     robust2 = loop.current_bound * loop.robust_factor / loop.current_width
     return [
         Knob("control.motor_loop.filter_frequency", 0.02 * fastest, fastest),
-        Knob("control.motor_loop.speed_gain", 0.005 * fastest, fastest - robust1),
-        Knob("control.motor_loop.current_gain", 0.01 * fastest, fastest - robust2),
+        Knob("control.motor_loop.speed_gain", max(robust1, 0.01 * fastest), fastest - robust1),
+        Knob("control.motor_loop.current_gain", max(robust2, 0.01 * fastest), fastest - robust2),
     ]
 
 
@@ -143,8 +148,9 @@ def follow(task: Task, begun: Values) -> Values:
 
 
 def _point(task: Task, values: Values) -> np.ndarray:
-    """The logarithms of values, moved to the bounds where they are outside."""
-    return np.clip(np.log([values[knob.key] for knob in task.knobs]), *np.transpose(task.bounds))
+    """The logarithms of values, moved just inside the bounds, where rounding takes none of them out again."""
+    low, high = np.transpose(task.bounds)
+    return np.clip(np.log([values[knob.key] for knob in task.knobs]), low + 1e-9, high - 1e-9)
 
 
 class Scores:
@@ -186,7 +192,7 @@ class Scores:
     def cost(self, x: np.ndarray) -> float:
         """Objective and what is missing to the rest in one number."""
         missing = np.maximum(0.0, -self.room(x)).sum()
-        return self.objective(x) + STRICTNESS * float(missing) + 10.0 * abs(self.score(x).unstable)
+        return self.objective(x) + STRICTNESS * float(missing) + WORST * abs(self.score(x).unstable)
 
     def generation(self, x: np.ndarray, convergence: float) -> None:
         """One generation is done."""
