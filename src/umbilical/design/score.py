@@ -151,7 +151,7 @@ class Judge:
         place = np.unravel_index(np.argmax(sizes), np.shape(sizes))
         binding = (list(self.changes)[place[0]], float(self.w[place[1]]))
         unstable = max(_unstable(loop, curve) for curve in endless)
-        calm = np.abs(1.0 / (r.up1 - r.up2))[ARC:][self.band]
+        calm = r.compliance()[ARC:][self.band]
         reflection = np.abs(r.reflection())[ARC:][self.band]
         effort = self._effort(loop, r)
         return Score(float(reflection.max()), float(calm.max()), np.max(sizes, axis=1), binding, unstable, effort)
