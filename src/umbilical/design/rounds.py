@@ -13,7 +13,7 @@ import numpy as np
 
 from umbilical.analysis.sampled import sampled_loop
 from umbilical.design.margins import MarginReport, margins
-from umbilical.design.score import Demands, Effort, Score
+from umbilical.design.score import Demands, Effort, Judge, Score
 from umbilical.design.search import Task, Values, explore, follow
 from umbilical.design.trial import Trial, attempt
 from umbilical.scenario.scenario import Scenario
@@ -97,7 +97,7 @@ class Outcome:
 def side(task: Task, values: Values, progress: Callable[[float], None] | None = None) -> Side:
     """A scenario with some values, judged and tried."""
     new = task.scenario.replace(values)
-    score = task.judge().score(sampled_loop(new, task.thrust))
+    score = Judge(task.scenario, task.shortest, task.demands).score(sampled_loop(new, task.thrust))
     return Side(new, task.demands, score, _report(task, values), attempt(new, progress=progress))
 
 

@@ -95,8 +95,8 @@ class Task:
     ceilings: Effort = NO_CEILINGS
 
     def judge(self, *, quick: bool = False) -> Judge:
-        """Judge of a loop by the demands."""
-        return Judge(self.scenario, self.shortest, self.demands, quick=quick)
+        """Judge of a loop by the demands; of its effort where ceilings ask for that."""
+        return Judge(self.scenario, self.shortest, self.demands, quick=quick, efforts=self.ceilings != NO_CEILINGS)
 
     def loop(self, values: dict[str, float]) -> SampledLoop:
         """The loop with other values."""
@@ -154,7 +154,7 @@ def _point(task: Task, values: Values) -> np.ndarray:
 
 
 class Scores:
-    """What a search asks of a point in the logarithms of the knobs; the last score is remembered."""
+    """What a search asks of a point in the logarithms of the knobs; every score is remembered."""
 
     def __init__(
         self, task: Task, judge: Judge, generations: int = 0, progress: Callable[[float], None] | None = None
@@ -162,14 +162,15 @@ class Scores:
         self._task, self._judge = task, judge
         self._generations, self._progress = generations, progress
         self._before = self._judge.score(sampled_loop(task.scenario, task.thrust))
-        self._last: tuple[bytes, Score] | None = None
+        self._known: dict[bytes, Score] = {}
         self._done = 0
 
     def score(self, x: np.ndarray) -> Score:
         """All of it."""
-        if self._last is None or self._last[0] != x.tobytes():
-            self._last = (x.tobytes(), self._judge.score(self._task.loop(self._task.values(x))))
-        return self._last[1]
+        key = x.tobytes()
+        if key not in self._known:
+            self._known[key] = self._judge.score(self._task.loop(self._task.values(x)))
+        return self._known[key]
 
     def objective(self, x: np.ndarray) -> float:
         """What shall be small."""
