@@ -124,7 +124,7 @@ def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
 
 
 def test_loops_that_are_unstable_both_ways_are_compared_by_poles_and_growth():
-    """A short cable whose waves of 100 rad/s some grids carry: they grow there as well, but not as many modes of them."""
+    """A short cable whose waves of 100 rad/s some grids carry: they grow there, too, but in fewer modes."""
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": 20.0})
     exact = judge(scenario, 40.0)
     grids = judge_grids(scenario, exact, (30, 40))

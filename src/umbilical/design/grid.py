@@ -124,7 +124,10 @@ def _numbers(found: Stability, limits: Margins | None) -> dict[str, float]:
 
 
 def _apart(one: float, other: float) -> float:
-    return 0.0 if one == other else abs(one - other) / max(abs(other), 1e-12)
+    """Relative difference; 1 where one of them is no limit at all, 0 or infinite."""
+    if one == other:
+        return 0.0
+    return abs(one - other) / abs(other) if other and np.isfinite([one, other]).all() else 1.0
 
 
 def with_grid_echo(swept: Sweep, period: LinearPeriod) -> tuple[Sweep, float]:
@@ -142,7 +145,7 @@ def _followed(ask: Callable[[np.ndarray], np.ndarray], ends: np.ndarray) -> tupl
     """A smooth function at frequencies close enough for a spline, up to where it is silent."""
     from scipy.interpolate import CubicSpline
 
-    w = np.geomspace(*ends, POINTS)
+    w = np.geomspace(ends[0], ends[1], POINTS)
     values = ask(w)
     last = 1 + int(np.argmax(np.abs(values) < SILENT)) if (np.abs(values) < SILENT).any() else POINTS
     w, values = w[:last], values[:last]
