@@ -11,7 +11,7 @@ import pytest
 
 import umbilical
 from umbilical.analysis.margins import judge
-from umbilical.analysis.sampled import sampled_loop
+from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.design.design import _limited_by, _missing, check_design, design
 from umbilical.design.margins import margins
 from umbilical.design.rounds import Limits, Outcome, Side, design_within, side
@@ -143,6 +143,28 @@ def test_picture_of_the_margins():
     figure = plot_margins(margins(RINGDOWN.replace({"control.law.slope_gain": 5.0}), [100.0, 400.0]))
     assert "not stable" in str(figure.get_suptitle())
     assert len(figure.axes) == 4
+
+
+def test_margins_as_text_name_the_worst_margin_and_three_modes(umbilical_command):
+    done = umbilical_command("margins", "ringdown", "--grid", "8,12,16", "--lengths", "100")
+    assert "exact" in done.out
+    assert "unstable eigenvalues of the closed matrix" in done.out
+    assert "as counted" in done.out
+    first = next(line for line in done.out.splitlines() if line.strip().startswith("100 m"))
+    assert first.count(",") == 4
+
+
+def test_circles_hold_the_loop_and_its_resonances_touch_them():
+    swept = judge(RINGDOWN, 400.0).sweep
+    centre, radius = swept.circles()
+    w = np.linspace(2.0, 2.5, 200_000)
+    size = np.abs(loop_response(swept.cable, swept.loop, 1j * w).loop)
+    largest, smallest = (
+        np.interp(w, swept.coarse, x) for x in (np.abs(centre) + radius, np.abs(np.abs(centre) - radius))
+    )
+    assert (size < 1.01 * largest).all()
+    assert (size > 0.99 * smallest).all()
+    assert (size / largest).max() > 0.99
 
 
 def test_margins_on_the_command_line(umbilical_command):
