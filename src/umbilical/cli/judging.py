@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from umbilical.analysis.margins import Judgement
     from umbilical.design.grid import GridJudgement
     from umbilical.design.margins import MarginReport
-    from umbilical.design.matrix import MatrixCheck
+    from umbilical.design.matrix import Counted, MatrixCheck
 
 SHOWN_MODES = 3
 SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency that grows": (1.0, " rad/s")}
@@ -171,9 +171,14 @@ def _apart(g: GridJudgement) -> str:
 
 
 def _eigenvalues(check: MatrixCheck) -> str:
-    counts = ", ".join(f"{count.eigenvalues} {count.change}" for count in check.counts)
+    counts = ", ".join(f"{_how_many(count)} {count.change}" for count in check.counts)
     agreement = "as counted" if check.agrees else "NOT as counted: " + ", ".join(str(c.nyquist) for c in check.counts)
     return f"unstable eigenvalues of the closed matrix of {check.states} states: {counts}; {agreement}"
+
+
+def _how_many(count: Counted) -> str:
+    most = count.eigenvalues + count.undecided
+    return f"{count.eigenvalues} to {most}" if count.undecided else f"{most}"
 
 
 def _verdict(report: MarginReport) -> str:
