@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from time import process_time
 
 import numpy as np
@@ -10,17 +11,21 @@ import pytest
 
 import umbilical
 from umbilical.analysis.margins import judge
-from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.design import Limits, Side, _missing, check_design, design
+from umbilical.analysis.sampled import loop_response, sampled_loop
+from umbilical.design.design import _limited_by, _missing, check_design, design
 from umbilical.design.margins import margins
-from umbilical.design.score import Demands, Judge
-from umbilical.design.search import Knob, changed, inner_knobs, outer_knobs, search
+from umbilical.design.rounds import Limits, Outcome, Side, design_within, side
+from umbilical.design.score import Demands, Effort, Judge
+from umbilical.design.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
 from umbilical.design.trial import attempt, rms_above
 from umbilical.errors import ScenarioError
 from umbilical.plots import plot_margins
 
 RINGDOWN = umbilical.load("ringdown")
 JUDGE = Judge(RINGDOWN, 400.0, Demands())
+
+
+SLOW_SLOPE = {"control.slope_observer.time_constant": 0.86, "control.disturbance_observer.gain": 80.0}
 
 
 def score(values):
@@ -59,14 +64,57 @@ def test_the_papers_gains_are_not_sound():
 def test_search_is_deterministic_and_better():
     knobs = [Knob("control.law.slope_gain", 0.05, 50.0), Knob("control.law.damping_gain", 50.0, 1e4)]
     slow = RINGDOWN.replace({"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0})
-    one, two = (search(slow, knobs, JUDGE, "ringdown", 50.0, generations=4) for _ in range(2))
-    assert one.values == two.values
-    assert one.score.sound
-    assert one.score.reflection < score({}).reflection
+    task = Task(slow, knobs, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
+    one, two = (follow(task, explore(task, generations=4)) for _ in range(2))
+    assert one == two
+    found = JUDGE.score(task.loop(one))
+    assert found.sound
+    assert found.reflection < score({}).reflection
+
+
+def test_a_ceiling_is_kept_and_costs_something():
+    knobs = [Knob("control.law.slope_gain", 0.05, 50.0), Knob("control.law.damping_gain", 50.0, 1e4)]
+    slow = RINGDOWN.replace({"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0})
+    free = Task(slow, knobs, "ringdown", Demands(), 400.0, 50.0)
+    first = JUDGE.score(free.loop(follow(free, explore(free, generations=4))))
+    bound = replace(free, ceilings=Effort(0.5 * first.effort.voltage, np.inf, np.inf))
+    second = JUDGE.score(bound.loop(follow(bound, explore(bound, generations=4))))
+    assert second.sound
+    assert second.effort.voltage < 0.51 * first.effort.voltage
+    assert second.reflection > first.reflection
+
+
+def test_effort_orders_gains_as_simulations_do():
+    """Softer motor loops and a smaller jump of the commanded thrust need less voltage."""
+    hard = {"control.law.slope_gain": 10.0, "control.law.damping_gain": 550.0, **SLOW_SLOPE}
+    milder = [{}, {"control.motor_loop.current_gain": 100.0}, {"control.law.slope_gain": 1.0}]
+    scenarios = [RINGDOWN.replace(hard | change | {"duration": 3.0}) for change in milder]
+    volts = [umbilical.simulate(scenario).metrics["motor_voltage_peak"] for scenario in scenarios]
+    efforts = [JUDGE.score(sampled_loop(scenario, 50.0)).effort.voltage for scenario in scenarios]
+    assert list(np.argsort(efforts)) == list(np.argsort(volts))
+
+
+def test_margins_of_a_side_are_those_of_its_report_not_of_the_coarse_search():
+    """Gains that the coarse frequencies of the search call sound, and that have 29.8 degrees and 5.5 dB."""
+    knife_edge = {
+        "control.law.slope_gain": 7.649, "control.law.damping_gain": 586.5,
+        "control.velocity_observer.time_constant": 0.002, "control.velocity_observer.damping": 1.0,
+        "control.slope_observer.time_constant": 0.6874, "control.slope_observer.damping": 1.581,
+        "control.disturbance_observer.gain": 77.94,
+    }  # fmt: skip
+    quick = Judge(RINGDOWN, 400.0, Demands(), quick=True)
+    loop = sampled_loop(changed(RINGDOWN, knife_edge), 50.0)
+    assert quick.score(loop).sound
+    assert not JUDGE.score(loop).sound
+    task = Task(RINGDOWN.replace({"duration": 0.5}), [], "both", Demands(), 400.0, 50.0)
+    found = side(task, knife_edge)
+    assert not found.meets
+    assert any("margins are missed" in words for words in _missing(found, Limits(), ()))
 
 
 def test_inner_knobs_leave_room_for_the_robust_terms():
     assert [knob.high for knob in inner_knobs(RINGDOWN)] == pytest.approx([900.0, 840.0, 810.0])
+    assert [knob.low for knob in inner_knobs(RINGDOWN)] == pytest.approx([18.0, 60.0, 90.0])
     assert inner_knobs(RINGDOWN.replace({"ideal_thruster": True})) == []
     assert len(outer_knobs(RINGDOWN, 50.0)) == 7
 
@@ -95,6 +143,28 @@ def test_picture_of_the_margins():
     figure = plot_margins(margins(RINGDOWN.replace({"control.law.slope_gain": 5.0}), [100.0, 400.0]))
     assert "not stable" in str(figure.get_suptitle())
     assert len(figure.axes) == 4
+
+
+def test_margins_as_text_name_the_worst_margin_and_three_modes(umbilical_command):
+    done = umbilical_command("margins", "ringdown", "--grid", "8,12,16", "--lengths", "100")
+    assert "exact" in done.out
+    assert "unstable eigenvalues of the closed matrix" in done.out
+    assert "as counted" in done.out
+    first = next(line for line in done.out.splitlines() if line.strip().startswith("100 m"))
+    assert first.count(",") == 4
+
+
+def test_circles_hold_the_loop_and_its_resonances_touch_them():
+    swept = judge(RINGDOWN, 400.0).sweep
+    centre, radius = swept.circles()
+    w = np.linspace(2.0, 2.5, 200_000)
+    size = np.abs(loop_response(swept.cable, swept.loop, 1j * w).loop)
+    largest, smallest = (
+        np.interp(w, swept.coarse, x) for x in (np.abs(centre) + radius, np.abs(np.abs(centre) - radius))
+    )
+    assert (size < 1.01 * largest).all()
+    assert (size > 0.99 * smallest).all()
+    assert (size / largest).max() > 0.99
 
 
 def test_margins_on_the_command_line(umbilical_command):
@@ -139,10 +209,64 @@ def test_ringdown_and_the_papers_disturbance_with_one_set_of_gains():
     assert took < 60.0  # of a processor: other work on the machine must not fail a test
 
 
-def test_a_limit_that_is_broken_is_said():
+@pytest.mark.slow
+def test_without_inner_it_keeps_its_margins_and_says_what_inner_could_do():
+    found = design(RINGDOWN)
+    assert found.met, found.missing
+    assert found.after.meets
+    assert found.after.trial.late_mid_peak < 0.35 * found.before.trial.late_mid_peak
+    assert any("--inner" in words for words in found.limited_by)
+
+
+@pytest.mark.slow
+def test_a_limit_on_the_voltage_shapes_the_gains():
+    found = design(RINGDOWN, inner=True, limits=Limits(voltage=60.0))
+    assert found.met, found.missing
+    assert found.after.trial.voltage_peak < 60.0
+    assert found.after.trial.late_mid_peak < 0.15
+    assert any("limit on voltage" in words for words in found.limited_by)
+
+
+@pytest.mark.slow
+def test_rejection_in_the_papers_run_keeps_its_margins():
+    found = design(umbilical.load("paper"), "rejection")
+    assert found.met, found.missing
+    assert found.after.trial.tip_peak < 0.5 * found.before.trial.tip_peak
+
+
+def test_a_limit_that_is_broken_is_said_and_blamed_only_where_it_was_searched_under():
     trial = attempt(RINGDOWN.replace({"duration": 1.0, "grid.elements": 8}))
-    side = Side(RINGDOWN, score({}), margins(RINGDOWN), trial)
-    said = _missing(side, Limits(voltage=0.1))
-    assert any("the thrusters are the limit" in words for words in said)
-    assert any("more thrust" in words for words in said)
-    assert len(_missing(side, Limits(chatter=1e3))) == 1
+    before = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
+    once, again = (list(_missing(before, Limits(voltage=0.1), limited)) for limited in ((), ("voltage",)))
+    assert not any("the thrusters are the limit" in words for words in once)
+    assert any("voltage the thrusters are the limit" in words for words in again)
+    assert any("more thrust" in words for words in once)
+    assert len(list(_missing(before, Limits(chatter=1e3), ()))) == 1
+
+
+def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
+    from umbilical.design import rounds
+
+    tried = []
+    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    sides = [Side(RINGDOWN, Demands(0.5, 0.0, 0.0), score(SLOW_SLOPE), margins(RINGDOWN), trial)]
+    monkeypatch.setattr(rounds, "_round", lambda task, begun, progress: tried.append(task.ceilings) or ({}, sides[0]))
+    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    monkeypatch.setattr(Side, "kept", property(lambda side: True))
+    outcome = design_within(task, Limits(voltage=0.5 * trial.voltage_peak), lambda share: None)
+    assert outcome.limited == ("voltage",)
+    assert [round_.voltage for round_ in tried[:2]] == [np.inf, pytest.approx(0.475 * sides[0].score.effort.voltage)]
+    assert len(tried) == rounds.ROUNDS
+    monkeypatch.setattr(Side, "kept", property(lambda side: False))
+    tried.clear()
+    assert design_within(task, Limits(voltage=0.1), lambda share: None).limited == ()
+    assert len(tried) == 1
+
+
+def test_what_inner_could_do_is_said_where_motor_gains_were_kept():
+    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    now = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
+    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    kept, chosen = (list(_limited_by(task, Outcome({}, now, now, ()), motor_gains_kept=kept)) for kept in (True, False))
+    assert any("--inner" in words for words in kept)
+    assert not any("--inner" in words for words in chosen)

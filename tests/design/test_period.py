@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -11,7 +13,9 @@ from umbilical.analysis.limits import margins, scaled
 from umbilical.analysis.margins import judge
 from umbilical.analysis.nyquist import stability, sweep
 from umbilical.analysis.sampled import loop_response, sampled_loop
-from umbilical.design.grid import judge_grids, resolved, with_grid_echo
+from umbilical.design.grid import judge_grids, on_grid, resolved, with_grid_echo
+from umbilical.design.margins import margins as report
+from umbilical.design.matrix import Counted, MatrixCheck, unstable_eigenvalues
 from umbilical.design.period import linear_period
 from umbilical.interop.python_control import to_control
 
@@ -87,9 +91,49 @@ def test_eigenvalues_count_what_nyquist_counts():
     echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period)
     limit = margins(echoed).gain_high.size
     for gain, stable in ((0.98 * limit, True), (1.02 * limit, False)):
-        largest = np.abs(np.linalg.eigvals(period.scaled(gain).closed)).max()
-        assert bool(largest <= 1.0 + 1e-9) is stable
+        assert (unstable_eigenvalues(period.scaled(gain))[0] == 0) is stable
         assert (stability(echoed, scaled(gain)).unstable == 0) is stable
+
+
+@pytest.mark.parametrize("gain", [2.0, 4.0])
+def test_a_grids_false_echoes_at_the_rov_are_followed(gain):
+    """They repeat with the modes and decide whether a mode grows by 1e-5 1/s; too few frequencies missed it."""
+    scenario = on_grid(umbilical.load("paper"), 450.0, 25)
+    exact = judge(scenario, 450.0)
+    period = linear_period(scenario, exact.sweep.loop, 450.0)
+    echoed, _ = with_grid_echo(exact.sweep, period)
+    assert stability(echoed, scaled(gain)).unstable == unstable_eigenvalues(period.scaled(gain))[0]
+
+
+def test_later_readings_in_the_matrix_are_a_delay():
+    period, _ = both(umbilical.load("ringdown", {"grid.elements": 8}), 100.0)
+    delayed = np.exp(-1j * LOW * 3 * period.period) * period.transfer(LOW)
+    np.testing.assert_allclose(period.later(3).transfer(LOW), delayed, rtol=1e-9)
+
+
+def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
+    found = report(umbilical.load("ringdown"), elements=(8, 12, 16))
+    assert found.check is not None
+    assert found.check.elements == 8
+    assert found.check.agrees
+    assert {count.eigenvalues > 0 for count in found.check.counts} == {True, False}
+    disagreeing = MatrixCheck(8, 100, (Counted("as it is", 0, 2, 0),))
+    assert not disagreeing.agrees
+    assert MatrixCheck(8, 100, (Counted("as it is", 2, 0, 2),)).agrees
+    assert not replace(found, check=disagreeing).resolved
+
+
+def test_loops_that_are_unstable_both_ways_are_compared_by_poles_and_growth():
+    """A short cable whose waves of 100 rad/s some grids carry: they grow there, too, but in fewer modes."""
+    scenario = umbilical.load("ringdown", {"control.law.slope_gain": 20.0})
+    exact = judge(scenario, 40.0)
+    grids = judge_grids(scenario, exact, (30, 40))
+    assert not exact.stable
+    for grid in grids:
+        assert grid.stability.unstable > 0
+        assert grid.differs.name == "unstable poles"
+        assert grid.difference == pytest.approx(1.0 - grid.stability.unstable / exact.stability.unstable)
+    assert not resolved((grids[0], *grids))
 
 
 @pytest.mark.slow
@@ -114,6 +158,7 @@ def test_margins_by_matrix_agree_where_the_grid_is_fine_enough():
     scenario = umbilical.load("ringdown")
     grids = judge_grids(scenario, judge(scenario, 400.0), (16, 64, 128))
     assert grids[0].difference > 0.02
+    assert grids[0].difference == pytest.approx(abs(grids[0].differs.grid / grids[0].differs.exact - 1.0))
     assert grids[-1].difference < 0.02
     assert resolved(grids)
 

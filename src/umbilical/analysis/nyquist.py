@@ -49,6 +49,10 @@ class Opened(NamedTuple):
         """1 - f a2."""
         return 1.0 - factor * self.a2
 
+    def loop(self, echo: np.ndarray) -> np.ndarray:
+        """L."""
+        return (self.a2 + echo * self.b2) / (1.0 + echo * self.b)
+
     def reflection(self, factor: np.ndarray) -> np.ndarray:
         """R."""
         return -(self.b - factor * self.b2) / self.endless(factor)
@@ -103,7 +107,18 @@ class Sweep:
 
     def transfer(self) -> np.ndarray:
         """L at the dense frequencies."""
-        return (self.dense.a2 + self.echo * self.dense.b2) / (1.0 + self.echo * self.dense.b)
+        return self.dense.loop(self.echo)
+
+    def circles(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where L can be at the coarse frequencies, the echo in any phase: centre and radius of a circle.
+
+        L is a fraction linear in the echo, so it takes a circle to a circle. Its largest value is that of a mode.
+        """
+        o = self.opened
+        far = o.b2 / o.b
+        share = np.abs(self.loudest * o.b) ** 2
+        spread = (o.a2 - far) / (1.0 - share)
+        return far + spread, np.abs(spread) * np.sqrt(share)
 
 
 @dataclass(frozen=True)

@@ -185,6 +185,10 @@ class LoopResponse(NamedTuple):
         """What the controlled ROV sends up per displacement that comes down; ``gain`` scales the thrust."""
         return -(self.down1 - gain * self.down2) / (self.up1 - gain * self.up2)
 
+    def compliance(self) -> np.ndarray:
+        """Size of the ROV's displacement per force on it, m/N, echoes left out."""
+        return np.abs(1.0 / (self.up1 - self.up2))
+
 
 def loop_response(
     cable: HangingCable, loop: SampledLoop, p: np.ndarray, met: Waves | None = None, aliases: int = ALIASES

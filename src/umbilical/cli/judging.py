@@ -16,7 +16,13 @@ from umbilical.cli.targets import PICTURES, check_target
 if TYPE_CHECKING:
     from umbilical.analysis.limits import Limit
     from umbilical.analysis.margins import Judgement
+    from umbilical.design.grid import GridJudgement
     from umbilical.design.margins import MarginReport
+    from umbilical.design.matrix import Counted, MatrixCheck
+
+SHOWN_MODES = 3
+SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency that grows": (1.0, " rad/s")}
+"""Factor and unit in which a number is shown."""
 
 
 def margins(
@@ -99,10 +105,19 @@ def document(report: MarginReport) -> dict[str, Any]:
                 "elements": g.elements,
                 "unstable_poles": g.stability.unstable,
                 "difference": g.difference,
+                "differs_most": g.differs._asdict(),
                 "heard_up_to": g.heard,
             }
             for g in report.grids
         ],
+        "eigenvalues": None
+        if report.check is None
+        else {
+            "elements": report.check.elements,
+            "states": report.check.states,
+            "agree": report.check.agrees,
+            "counts": [count._asdict() for count in report.check.counts],
+        },
         "lengths": [_one_length(judgement) for judgement in report.judgements],
     }
 
@@ -137,26 +152,53 @@ def text(report: MarginReport) -> str:
 
 def _grids(report: MarginReport) -> list[str]:
     """What the engine's own grids say at the longest length, and the verdict."""
-    lines = []
-    for g in report.grids:
-        apart = f"margins within {100.0 * g.difference:.2g} %" if math.isfinite(g.difference) else "stability differs"
-        lines.append(
-            f"  {g.elements} elements: {apart}; unstable poles {g.stability.unstable}; up to {g.heard:.3g} rad/s"
-        )
+    lines = [f"  {g.elements} elements: {_apart(g)}; up to {g.heard:.3g} rad/s" for g in report.grids]
+    if report.check:
+        lines.append(f"  {report.check.elements} elements, {_eigenvalues(report.check)}")
     if report.resolved is not None:
-        verdict = "resolved" if report.resolved else "NOT RESOLVED: the grids and the exact cable disagree; it decides"
-        lines.append(f"  verdict on the grids at the longest length: {verdict}")
+        lines.append(f"  verdict on the grids at the longest length: {_verdict(report)}")
     return lines
+
+
+def _apart(g: GridJudgement) -> str:
+    """How far a grid is from the exact cable, and in what."""
+    d, (factor, unit) = g.differs, SHOWN.get(g.differs.name, (1.0, ""))
+    what = f"{d.name.replace('_', ' ')} {factor * d.grid:.4g}{unit}, exact {factor * d.exact:.4g}{unit}"
+    if not math.isfinite(d.size):
+        return f"stability differs ({what})"
+    shared = "margins" if g.margins else "both unstable, poles and fastest growth"
+    return f"{shared} within {100.0 * d.size:.2g} % ({what})"
+
+
+def _eigenvalues(check: MatrixCheck) -> str:
+    counts = ", ".join(f"{_how_many(count)} {count.change}" for count in check.counts)
+    agreement = "as counted" if check.agrees else "NOT as counted: " + ", ".join(str(c.nyquist) for c in check.counts)
+    return f"unstable eigenvalues of the closed matrix of {check.states} states: {counts}; {agreement}"
+
+
+def _how_many(count: Counted) -> str:
+    most = count.eigenvalues + count.undecided
+    return f"{count.eigenvalues} to {most}" if count.undecided else f"{most}"
+
+
+def _verdict(report: MarginReport) -> str:
+    if report.resolved:
+        return "resolved"
+    if report.check and not report.check.agrees:
+        return "NOT RESOLVED: eigenvalues and Nyquist's count disagree on a grid; believe neither"
+    return "NOT RESOLVED: the grids and the exact cable disagree; it decides"
 
 
 def rows(report: MarginReport) -> list[tuple[str, ...]]:
     """A row of cells for each length, below their names."""
-    names = ("length", "effectiveness", "phase", "delay", "unstable poles", "first mode", "damping")
+    names = ("length", "effectiveness", "phase", "delay", "unstable poles", "first modes, rad/s", "damping ratios")
     return [names, *(_row(j) for j in report.judgements)]
 
 
 def _row(j: Judgement) -> tuple[str, ...]:
-    mode = (f"{j.modes[0].frequency:.4g} rad/s", f"{j.modes[0].damping_ratio:.3g}") if j.modes else ("-", "-")
+    shown = j.modes[:SHOWN_MODES]
+    frequencies = ", ".join(f"{mode.frequency:.4g}" for mode in shown) or "-"
+    mode = (frequencies, ", ".join(f"{mode.damping_ratio:.2g}" for mode in shown) or "-")
     if j.margins is None:
         return (f"{j.length:g} m", "-", "-", "-", str(j.stability.unstable), *mode)
     m = j.margins

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,49 +11,20 @@ from umbilical.admission import admit
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.margins import MarginReport, check_request, margins
-from umbilical.design.score import Demands, Judge, Score
-from umbilical.design.search import Objective, changed, inner_knobs, outer_knobs, search
-from umbilical.design.trial import Trial, attempt
+from umbilical.design.margins import check_request
+from umbilical.design.rounds import Limits, Outcome, Side, design_within, side
+from umbilical.design.score import Demands, Score
+from umbilical.design.search import Objective, Task, Values, inner_knobs, outer_knobs
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
-GENERATIONS = 90
-SEARCH, TRIALS = 0.6, 0.3
-"""Shares of the progress: search, both simulations; the margins have the rest."""
+UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V"}
+"""Of the limits."""
+SEARCH = 0.85
+"""Share of the progress; the simulation of the scenario as it was has most of the rest."""
 BETAS = 40
 """Values of beta in the picture of what the motors can follow."""
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What the motors shall not exceed in the trial; infinite where nothing is said.
-
-    Attributes:
-        voltage: V.
-        speed: rad/s.
-        chatter: RMS of a voltage above 10 Hz in the last third of the run, V.
-    """
-
-    voltage: float = np.inf
-    speed: float = np.inf
-    chatter: float = 0.05
-
-
-@dataclass(frozen=True)
-class Side:
-    """A scenario before or after: its score, its margins at every length, its trial."""
-
-    scenario: Scenario
-    score: Score
-    report: MarginReport
-    trial: Trial
-
-    @property
-    def meets(self) -> bool:
-        """Whether the demanded margins are there at every length, echoes in any phase."""
-        return self.score.sound and self.report.stable
 
 
 @dataclass(frozen=True)
@@ -75,7 +46,7 @@ class Design:
     before: Side
     after: Side
     missing: tuple[str, ...]
-    limited_by: str
+    limited_by: tuple[str, ...]
     betas: np.ndarray
     reflections: np.ndarray
     followed: np.ndarray
@@ -113,7 +84,8 @@ def design(
             is under force; ``both``: the first, without losing any of the second.
         inner: choose the gains and the filter of the motor loops, too.
         demands: margins, at every length between the shortest of the run and an endless one.
-        limits: on voltage, speed and chatter, looked at in a simulation of the scenario.
+        limits: on voltage, speed and chatter in a simulation of the scenario; where gains exceed them, the search
+            is repeated with less effort of the motors.
         operating_thrust: as for :func:`umbilical.design.margins.margins`.
         progress: called with the share done, 0 to 1.
 
@@ -125,72 +97,74 @@ def design(
     lengths = usual_lengths(scenario)
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
     check_request(scenario, lengths, thrust)
-    judge = Judge(scenario, min(lengths), demands)
-    knobs = outer_knobs(scenario, hanging_cable(scenario, lengths[0]).tip_wave_speed)
-    knobs += inner_knobs(scenario) if inner else []
+    wave_speed = hanging_cable(scenario, lengths[0]).tip_wave_speed
+    motor_knobs = inner_knobs(scenario)
+    knobs = outer_knobs(scenario, wave_speed) + (motor_knobs if inner else [])
+    task = Task(scenario, knobs, objective, demands, min(lengths), thrust)
     tell = progress or (lambda share: None)
-    found = search(
-        scenario, knobs, judge, objective, thrust, generations=GENERATIONS, progress=lambda x: tell(SEARCH * x)
-    )
-    new = scenario.replace(found.values)
-    admit(new)
-    before = _side(scenario, judge, thrust, lambda x: tell(SEARCH + 0.5 * TRIALS * x))
-    after = _side(new, judge, thrust, lambda x: tell(SEARCH + TRIALS * (0.5 + 0.5 * x)))
-    betas = np.geomspace(1e-3, 1.0, BETAS) * hanging_cable(scenario, lengths[0]).tip_wave_speed
-    scores = [judge.score(sampled_loop(changed(new, {"control.law.slope_gain": b}), thrust)) for b in betas]
-    tell(1.0)
+    found = design_within(task, limits, lambda x: tell(SEARCH * x))
+    admit(found.side.scenario)
+    before = side(task, {}, lambda x: tell(SEARCH + (1.0 - SEARCH) * x))
+    betas = np.geomspace(1e-3, 1.0, BETAS) * wave_speed
+    scores = _scores_over(betas, task, found.values)
     return Design(
         objective=objective,
         values=found.values,
         before=before,
-        after=after,
-        missing=_missing(after, limits),
-        limited_by=_limit(new, judge, thrust),
+        after=found.side,
+        missing=tuple(_missing(found.side, limits, found.limited)),
+        limited_by=tuple(_limited_by(task, found, motor_gains_kept=bool(motor_knobs) and not inner)),
         betas=betas,
         reflections=np.array([score.reflection for score in scores]),
         followed=np.array([score.sound for score in scores]),
     )
 
 
-def _side(scenario: Scenario, judge: Judge, thrust: float, progress: Callable[[float], None]) -> Side:
-    report = margins(scenario, operating_thrust=thrust)
-    trial = attempt(scenario, progress=progress)
-    return Side(scenario, judge.score(sampled_loop(scenario, thrust)), report, trial)
+def _scores_over(betas: np.ndarray, task: Task, values: Values) -> list[Score]:
+    judge = task.judge()
+    return [judge.score(task.loop(values | {"control.law.slope_gain": float(beta)})) for beta in betas]
 
 
-def _missing(after: Side, limits: Limits) -> tuple[str, ...]:
-    """What the new gains do not reach."""
-    trial, found = after.trial, []
+def _missing(after: Side, limits: Limits, limited: Sequence[str]) -> Iterator[str]:
+    """What the new gains do not reach; ``limited`` names the limits under which was searched."""
+    change, frequency = after.score.binding
     if not after.meets:
-        change, frequency = after.score.binding
-        found.append(f"the margin '{change}' is missed at {frequency:.3g} rad/s")
-    if not trial.completed:
-        return (*found, f"the simulation did not complete: {trial.run.reason}")
-    for name, value, limit, unit in (
-        ("voltage", trial.voltage_peak, limits.voltage, "V"),
-        ("speed", trial.speed_peak, limits.speed, "rad/s"),
-        ("chatter", trial.chatter, limits.chatter, "V"),
-    ):
-        if value > limit:
-            found.append(
-                f"{name} {value:.3g} {unit} above the limit of {limit:.3g} {unit}: the thrusters are the limit"
-            )
-    return tuple(found)
+        yield f"the demanded margins are missed; '{change}' at {frequency:.3g} rad/s is used up first"
+    elif not after.score.sound:
+        yield f"the margin '{change}' is missed at some other length, by waves of {frequency:.3g} rad/s"
+    if not after.trial.completed:
+        yield f"the simulation did not complete: {after.trial.run.reason}"
+    for name, (value, limit) in limits.exceeded(after.trial).items():
+        unit = UNITS[name]
+        words = f"{name} {value:.3g} {unit} above the limit of {limit:.3g} {unit}"
+        blame = f", in a search under this limit, too: with respect to {name} the thrusters are the limit"
+        yield words + (blame if name in limited else "")
 
 
-def _limit(scenario: Scenario, judge: Judge, thrust: float) -> str:
+def _limited_by(task: Task, found: Outcome, *, motor_gains_kept: bool) -> Iterator[str]:
+    """What keeps the objective from being served better."""
+    if found.limited:
+        yield (
+            f"the limit on {' and '.join(found.limited)}: without, the first modes' reflection were"
+            f" {found.unlimited.score.reflection:.4g} and the ROV per force {found.unlimited.score.compliance:.3g} m/N"
+        )
+    yield _used_up_first(task, found.side)
+    if motor_gains_kept:
+        yield "the gains of the motor loops, which were kept: --inner chooses them, too, and may serve better"
+
+
+def _used_up_first(task: Task, after: Side) -> str:
     """Which margin is used up first, and by whose lag."""
-    loop = sampled_loop(scenario, thrust)
-    score = judge.score(loop)
-    change, frequency = score.binding
+    judge, loop = task.judge(), sampled_loop(after.scenario, task.thrust)
+    change, frequency = after.score.binding
     where = f"the margin '{change}' at {frequency:.3g} rad/s is used up first"
     if not loop.drives:
         return f"{where}; the thruster is ideal, so observers and sampling are the limit"
     motors, hold = judge.motor_lag(loop, frequency)
-    ideal = judge.score(sampled_loop(scenario.model_copy(update={"ideal_thruster": True}), thrust))
+    ideal = judge.score(sampled_loop(after.scenario.model_copy(update={"ideal_thruster": True}), task.thrust))
     lag = f"{np.degrees(motors):.0f} degrees of lag are the motors', {np.degrees(hold):.0f} the sampling's"
-    spare = "the thrusters are the limit" if ideal.trip < score.trip else "with ideal thrusters it would be no better"
-    return f"{where}; there {lag}: {spare}"
+    better = "more" if ideal.trip < after.score.trip else "no more"
+    return f"{where}; there {lag}; ideal thrusters would leave {better} of it"
 
 
 def check_design(scenario: Scenario) -> None:

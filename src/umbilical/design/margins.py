@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import Judgement, check, judge_loop, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.grid import GridJudgement, judge_grids, resolved
+from umbilical.design.grid import GridJudgement, check_count, judge_grids, resolved
+from umbilical.design.matrix import MatrixCheck
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.scenario import Scenario
 
@@ -21,13 +22,15 @@ class MarginReport:
         scenario: whose loop it is.
         operating_thrust: steady thrust at which the motors are linearised, N.
         judgements: one for each length, from the exact cable.
-        grids: the longest length once more, from the engine's own matrices at several resolutions.
+        grids: the longest length once more, with the echo of the engine's own grids, at several resolutions.
+        check: the count on a coarse one of them against eigenvalues; None without grids.
     """
 
     scenario: Scenario
     operating_thrust: float
     judgements: tuple[Judgement, ...]
     grids: tuple[GridJudgement, ...] = ()
+    check: MatrixCheck | None = None
 
     @property
     def stable(self) -> bool:
@@ -36,8 +39,10 @@ class MarginReport:
 
     @property
     def resolved(self) -> bool | None:
-        """Whether the two finest grids agree with the exact cable within 2 %; None for fewer than three."""
-        return resolved(self.grids) if len(self.grids) >= 3 else None
+        """Whether the two finest grids agree with the exact cable, and the check; None for fewer than three."""
+        if len(self.grids) < 3 or self.check is None:
+            return None
+        return resolved(self.grids) and self.check.agrees
 
 
 def margins(
@@ -78,7 +83,9 @@ def margins(
         if progress:
             progress(number / (len(chosen) + 2 * len(elements)))
     longest = max(found, key=lambda judgement: judgement.length)
-    return MarginReport(scenario, thrust, tuple(found), judge_grids(scenario, longest, elements))
+    grids = judge_grids(scenario, longest, elements)
+    checked = check_count(scenario, longest, elements) if elements else None
+    return MarginReport(scenario, thrust, tuple(found), grids, checked)
 
 
 def check_request(scenario: Scenario, lengths: Sequence[float], thrust: float, elements: Sequence[int] = ()) -> None:

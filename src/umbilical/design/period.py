@@ -64,6 +64,11 @@ class LinearPeriod:
         """The same with another effectiveness of the thrusters."""
         return replace(self, b=gain * self.b)
 
+    def later(self, periods: int) -> LinearPeriod:
+        """The same with every reading so many periods later."""
+        a, b, c = _aged(self.a, sparse.csc_array(self.b), self.c, [periods] * self.c.shape[0])
+        return replace(self, a=sparse.csc_array(a), b=b.toarray(), c=c)
+
 
 def linear_period(scenario: Scenario, loop: SampledLoop, length: float) -> LinearPeriod:
     """The loop on the scenario's grid at a frozen length, m."""

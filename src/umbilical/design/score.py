@@ -17,13 +17,14 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.impedance import HangingCable, hanging_cable, waves
-from umbilical.analysis.limits import later, scaled, turned
+from umbilical.analysis.limits import Margins, later, scaled, turned
 from umbilical.analysis.nyquist import Factor, unchanged
-from umbilical.analysis.sampled import SampledLoop, delivered, demands_to_volts, loop_response
+from umbilical.analysis.sampled import ALIASES, LoopResponse, SampledLoop, delivered, demands_to_volts, loop_response
+from umbilical.design.trial import CHATTER
 from umbilical.scenario.scenario import Scenario
 
-POINTS = 140
-"""Frequencies from far below the first mode to half the sampling frequency."""
+POINTS, FEW_POINTS = 1000, 140
+"""Frequencies from far below the first mode to half the sampling frequency: to decide, and to rank gains."""
 ARC = 12
 FEW_ALIASES = 2
 """Enough to rank gains; what is chosen is judged with all of them."""
@@ -31,6 +32,8 @@ FIRST_MODES = (0.3, 2.2)
 """Band of the first modes in shares of 2 pi over the round trip: from the free ROV's first to about its fourth."""
 SPARE = 0.9997
 """What is asked of the largest round trip, a little below 1."""
+RESERVE_GAIN, RESERVE_PHASE, RESERVE_PERIODS = 10.0 ** (0.1 / 20.0), float(np.deg2rad(0.5)), 0.05
+"""What a search asks for beyond the demands, so that rounded gains still keep them."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +43,34 @@ class Demands:
     gain: float = 10.0 ** (6.0 / 20.0)
     phase: float = float(np.deg2rad(30.0))
     periods: float = 2.0
+
+    def beyond(self, reserves: float) -> Demands:
+        """The demands and some reserves more."""
+        return Demands(
+            self.gain * RESERVE_GAIN**reserves,
+            self.phase + reserves * RESERVE_PHASE,
+            self.periods + reserves * RESERVE_PERIODS,
+        )
+
+    def met_by(self, margins: Margins | None, period: float) -> bool:
+        """Whether a loop of this control period, s, is stable and has the margins."""
+        return margins is not None and margins.meets(self.gain, self.phase, self.periods * period)
+
+
+class Effort(NamedTuple):
+    """How hard the gains drive the motors, each number in a unit of its own that a simulation calibrates.
+
+    A slope is put on at the ROV at once, as where a bent cable is let go, and the linear loop on a cable without an
+    end answers. What it does as slowly as the first modes does not count.
+
+    Attributes:
+        voltage, speed: integral of the spectrum's size, which bounds the peak of a voltage and of the thrust.
+        chatter: root mean square of the voltage above 10 Hz.
+    """
+
+    voltage: float
+    speed: float
+    chatter: float
 
 
 class Score(NamedTuple):
@@ -51,6 +82,7 @@ class Score(NamedTuple):
         trips: largest size of a round trip under each change that the loop shall survive: below 1, it does.
         binding: which change comes closest, and at which frequency, rad/s.
         unstable: poles outside the unit circle on a cable without an end, under the demanded margins.
+        effort: of the motors.
     """
 
     reflection: float
@@ -58,6 +90,7 @@ class Score(NamedTuple):
     trips: np.ndarray
     binding: tuple[str, float]
     unstable: int
+    effort: Effort
 
     @property
     def trip(self) -> float:
@@ -84,14 +117,26 @@ def changes(demands: Demands, period: float) -> dict[str, Factor]:
 
 
 class Judge:
-    """Scores loops of one scenario's cable; what does not depend on the gains is computed once."""
+    """Scores loops of one scenario's cable; what does not depend on the gains is computed once.
 
-    def __init__(self, scenario: Scenario, shortest: float, demands: Demands) -> None:
+    Args:
+        scenario: whose cable and periods.
+        shortest: length of the cable, m.
+        demands: margins that the loop shall have.
+        quick: on fewer frequencies and aliases, to rank gains; nothing is decided on those.
+        efforts: whether the effort is wanted; it takes a quarter of the time.
+    """
+
+    def __init__(
+        self, scenario: Scenario, shortest: float, demands: Demands, *, quick: bool = False, efforts: bool = True
+    ) -> None:
+        self.efforts = efforts
         self.cable: HangingCable = hanging_cable(scenario, shortest)
         self.changes = changes(demands, scenario.control.period)
+        self.aliases = FEW_ALIASES if quick else ALIASES
         trip = self.cable.round_trip
         outer = scenario.control.outer_period or scenario.control.period
-        self.w = np.geomspace(0.02 * np.pi / trip, 0.999 * np.pi / outer, POINTS)
+        self.w = np.geomspace(0.02 * np.pi / trip, 0.999 * np.pi / outer, FEW_POINTS if quick else POINTS)
         arc = self.w[0] * np.exp(0.5j * np.pi * np.linspace(0.0, 1.0, ARC))
         self.p = np.concatenate([arc, 1j * self.w])
         self.met = waves(self.cable, self.p)
@@ -100,7 +145,7 @@ class Judge:
 
     def score(self, loop: SampledLoop) -> Score:
         """All of a loop's numbers."""
-        r = loop_response(self.cable, loop, self.p, self.met, FEW_ALIASES)
+        r = loop_response(self.cable, loop, self.p, self.met, self.aliases)
         a2, b, b2 = r.up2 / r.up1, r.down1 / r.up1, r.down2 / r.up1
         sizes, endless = [], []
         for factor in self.changes.values():
@@ -110,9 +155,30 @@ class Judge:
         place = np.unravel_index(np.argmax(sizes), np.shape(sizes))
         binding = (list(self.changes)[place[0]], float(self.w[place[1]]))
         unstable = max(_unstable(loop, curve) for curve in endless)
-        calm = np.abs(1.0 / (r.up1 - r.up2))[ARC:][self.band]
+        calm = r.compliance()[ARC:][self.band]
         reflection = np.abs(r.reflection())[ARC:][self.band]
-        return Score(float(reflection.max()), float(calm.max()), np.max(sizes, axis=1), binding, unstable)
+        effort = self._effort(loop, r)
+        return Score(float(reflection.max()), float(calm.max()), np.max(sizes, axis=1), binding, unstable, effort)
+
+    def _effort(self, loop: SampledLoop, r: LoopResponse) -> Effort:
+        if not (self.efforts and loop.drives):
+            return Effort(0.0, 0.0, 0.0)
+        volts = np.max(np.abs(demands_to_volts(loop, r.p)), axis=0)
+        commanded = np.abs(self._commanded_per_slope(loop, r))
+        voltage, thrust = (volts * commanded)[ARC:], commanded[ARC:]
+        shares = np.gradient(np.log(self.w))
+        sudden, fast = self.w > self.w[self.band][-1], self.w > 2.0 * np.pi * CHATTER
+        return Effort(
+            voltage=float((voltage * shares)[sudden].sum()),
+            speed=float((thrust * shares)[sudden].sum()),
+            chatter=float(np.sqrt((voltage**2 / self.w * shares)[fast].sum())),
+        )
+
+    def _commanded_per_slope(self, loop: SampledLoop, r: LoopResponse) -> np.ndarray:
+        """Commanded thrust per slope put on at the ROV, N: read by the law, and a pull that it holds against."""
+        read = loop.law.response(np.exp(r.p * loop.outer_period))[:, 0, 1]
+        held = r.up2 / r.up1
+        return (read - self.cable.tip_tension * held / r.force) / (1.0 - held)
 
     def motor_lag(self, loop: SampledLoop, frequency: float) -> tuple[float, float]:
         """Lag of the motors and of everything else in the loop's own electronics at a frequency, rad."""

@@ -9,10 +9,13 @@ from typing import Any, Literal
 import numpy as np
 
 from umbilical.analysis.sampled import SampledLoop, sampled_loop
-from umbilical.design.score import SPARE, Judge, Score
+from umbilical.design.score import SPARE, Demands, Effort, Judge, Score
 from umbilical.scenario.scenario import Scenario
 
 Objective = Literal["ringdown", "rejection", "both"]
+Values = dict[str, float]
+"""Numbers of a scenario by their keys."""
+NO_CEILINGS = Effort(np.inf, np.inf, np.inf)
 DETERMINISTIC: dict[str, Any] = {"seed": 1}  # scipy renames this argument; both names are understood
 MEMBERS = 6
 """Members of the population per knob."""
@@ -20,6 +23,8 @@ DIGITS = 4
 """Significant digits of a gain that is found; more would say something about the search only."""
 STRICTNESS = 100.0
 """Cost of a round trip 1 too large: a tenth of it outweighs any reflection."""
+WORST = 1e4
+"""Cost of an unstable pole: nothing else means anything then."""
 FIRMER = 0.02
 """By so much, in logarithms, the ROV shall be held firmer than before where both are asked for."""
 LOCAL_STEPS = 40
@@ -32,15 +37,6 @@ class Knob:
     key: str
     low: float
     high: float
-
-
-@dataclass(frozen=True)
-class Found:
-    """The best gains: by key, with their score; how many were tried."""
-
-    values: dict[str, float]
-    score: Score
-    tried: int
 
 
 def outer_knobs(scenario: Scenario, wave_speed: float) -> list[Knob]:
@@ -59,7 +55,10 @@ def outer_knobs(scenario: Scenario, wave_speed: float) -> list[Knob]:
 
 
 def inner_knobs(scenario: Scenario) -> list[Knob]:
-    """k_1, k_2 and the command filter, as far as the period allows beside the robust terms."""
+    """k_1, k_2 and the command filter, as far as the period allows beside the robust terms.
+
+    The robust terms are in the linear loop, but fade at large errors: the gains shall be no less than they.
+    """
     loop, fastest = scenario.control.motor_loop, 0.9 / scenario.control.period
     if loop is None or scenario.ideal_thruster:
         return []
@@ -67,71 +66,134 @@ def inner_knobs(scenario: Scenario) -> list[Knob]:
     robust2 = loop.current_bound * loop.robust_factor / loop.current_width
     return [
         Knob("control.motor_loop.filter_frequency", 0.02 * fastest, fastest),
-        Knob("control.motor_loop.speed_gain", 0.005 * fastest, fastest - robust1),
-        Knob("control.motor_loop.current_gain", 0.01 * fastest, fastest - robust2),
+        Knob("control.motor_loop.speed_gain", max(robust1, 0.01 * fastest), fastest - robust1),
+        Knob("control.motor_loop.current_gain", max(robust2, 0.01 * fastest), fastest - robust2),
     ]
 
 
-def search(
-    scenario: Scenario,
-    knobs: Sequence[Knob],
-    judge: Judge,
-    objective: Objective,
-    thrust: float,
-    *,
-    generations: int,
-    progress: Callable[[float], None] | None = None,
-) -> Found:
-    """Gains that serve the objective best among those with the demanded margins.
+@dataclass(frozen=True)
+class Task:
+    """What is searched for, and within which bounds.
 
-    Args:
+    Attributes:
         scenario: everything that is not a knob; its own gains say what "no worse" means.
         knobs: what may be chosen.
-        judge: scores a loop.
         objective: ``ringdown`` makes the ROV swallow waves; ``rejection`` keeps it still under force;
             ``both`` does the first without losing any of the second.
+        demands: margins that the gains shall leave.
+        shortest: length of the cable from which on they shall be there, m.
         thrust: steady thrust at which the motors are linearised, N.
+        ceilings: largest effort of the motors, in its own units.
+    """
+
+    scenario: Scenario
+    knobs: Sequence[Knob]
+    objective: Objective
+    demands: Demands
+    shortest: float
+    thrust: float
+    ceilings: Effort = NO_CEILINGS
+
+    def judge(self, *, quick: bool = False) -> Judge:
+        """Judge of a loop by the demands; of its effort where ceilings ask for that."""
+        return Judge(self.scenario, self.shortest, self.demands, quick=quick, efforts=self.ceilings != NO_CEILINGS)
+
+    def loop(self, values: dict[str, float]) -> SampledLoop:
+        """The loop with other values."""
+        return sampled_loop(changed(self.scenario, values), self.thrust)
+
+    def values(self, x: np.ndarray) -> dict[str, float]:
+        """The knobs at a point in their logarithms."""
+        return {knob.key: float(value) for knob, value in zip(self.knobs, np.exp(x), strict=True)}
+
+    @property
+    def bounds(self) -> list[tuple[float, float]]:
+        """Of the knobs' logarithms."""
+        return [(float(np.log(knob.low)), float(np.log(knob.high))) for knob in self.knobs]
+
+
+def explore(
+    task: Task, *, generations: int, begun: Values | None = None, progress: Callable[[float], None] | None = None
+) -> Values:
+    """Gains near the best ones among those with the demanded margins, ranked quickly.
+
+    Args:
+        task: what is searched for.
         generations: of the search.
+        begun: where it begins; at the scenario's own gains if left out.
         progress: called with the share done.
     """
-    from scipy.optimize import differential_evolution, minimize
+    from scipy.optimize import differential_evolution
 
-    before = judge.score(sampled_loop(scenario, thrust))
-    bounds = [(np.log(knob.low), np.log(knob.high)) for knob in knobs]
-    begun = np.clip(np.log([_present(scenario, knob.key) for knob in knobs]), *np.transpose(bounds))
-    count = Counter(lambda x: judge.score(_loop(scenario, _values(knobs, x), thrust)), generations, progress)
+    point = _point(task, begun or {knob.key: _present(task.scenario, knob.key) for knob in task.knobs})
+    scores = Scores(task, task.judge(quick=True), generations, progress)
     best = differential_evolution(
-        lambda x: _cost(count.score(x), before, objective), bounds, x0=begun, popsize=MEMBERS, **DETERMINISTIC,
-        maxiter=generations, tol=0.0, polish=False, callback=count.generation, mutation=(0.5, 1.0), recombination=0.7,
+        scores.cost, task.bounds, x0=point, popsize=MEMBERS, **DETERMINISTIC, maxiter=generations, tol=0.0,
+        polish=False, callback=scores.generation, mutation=(0.5, 1.0), recombination=0.7,
     )  # fmt: skip
-    # A population comes near the edge of what is allowed; a local search follows it.
+    return task.values(best.x)
+
+
+def follow(task: Task, begun: Values) -> Values:
+    """From gains near the best ones to the edge of what is allowed, judged on many frequencies, and rounded."""
+    from scipy.optimize import minimize
+
+    scores, point = Scores(task, task.judge()), _point(task, begun)
     local = minimize(
-        lambda x: _objective(count.score(x), before, objective), best.x, method="SLSQP", bounds=bounds,
-        constraints={"type": "ineq", "fun": lambda x: _room(count.score(x), before, objective)},
-        options={"maxiter": LOCAL_STEPS, "ftol": 1e-5},
+        scores.objective, point, method="SLSQP", bounds=task.bounds,
+        constraints={"type": "ineq", "fun": scores.room}, options={"maxiter": LOCAL_STEPS, "ftol": 1e-5},
     )  # fmt: skip
-    x = min((best.x, local.x), key=lambda x: _cost(count.score(x), before, objective))
-    values = {key: rounded(value) for key, value in _values(knobs, x).items()}
-    return Found(values, judge.score(_loop(scenario, values, thrust)), count.tried)
+    best = min((point, local.x), key=scores.cost)
+    return {key: rounded(value) for key, value in task.values(best).items()}
 
 
-class Counter:
-    """Scores, the last one remembered, and news of how far the search is."""
+def _point(task: Task, values: Values) -> np.ndarray:
+    """The logarithms of values, moved just inside the bounds, where rounding takes none of them out again."""
+    low, high = np.transpose(task.bounds)
+    return np.clip(np.log([values[knob.key] for knob in task.knobs]), low + 1e-9, high - 1e-9)
+
+
+class Scores:
+    """What a search asks of a point in the logarithms of the knobs; every score is remembered."""
 
     def __init__(
-        self, judged: Callable[[np.ndarray], Score], generations: int, progress: Callable[[float], None] | None
+        self, task: Task, judge: Judge, generations: int = 0, progress: Callable[[float], None] | None = None
     ) -> None:
-        self.tried = 0
-        self._judged, self._generations, self._progress = judged, generations, progress
-        self._last: tuple[bytes, Score] | None = None
+        self._task, self._judge = task, judge
+        self._generations, self._progress = generations, progress
+        self._before = self._judge.score(sampled_loop(task.scenario, task.thrust))
+        self._known: dict[bytes, Score] = {}
         self._done = 0
 
     def score(self, x: np.ndarray) -> Score:
-        """Score at a point in the logarithms of the knobs."""
-        if self._last is None or self._last[0] != x.tobytes():
-            self._last = (x.tobytes(), self._judged(x))
-            self.tried += 1
-        return self._last[1]
+        """All of it."""
+        key = x.tobytes()
+        if key not in self._known:
+            self._known[key] = self._judge.score(self._task.loop(self._task.values(x)))
+        return self._known[key]
+
+    def objective(self, x: np.ndarray) -> float:
+        """What shall be small."""
+        score = self.score(x)
+        rejection = self._task.objective == "rejection"
+        return float(np.log(score.compliance / self._before.compliance)) if rejection else score.reflection
+
+    def room(self, x: np.ndarray) -> np.ndarray:
+        """What must not be negative: round trips below 1, efforts below ceilings, nothing lost beside the aim."""
+        score = self.score(x)
+        asked = [(e, c) for e, c in zip(score.effort, self._task.ceilings, strict=True) if np.isfinite(c)]
+        room = [*np.log(SPARE / score.trips), *(np.log(ceiling / effort) for effort, ceiling in asked)]
+        match self._task.objective:
+            case "rejection":
+                room.append(self._before.reflection - score.reflection)
+            case "both":
+                room.append(np.log(self._before.compliance / score.compliance) - FIRMER)
+        return np.array(room)
+
+    def cost(self, x: np.ndarray) -> float:
+        """Objective and what is missing to the rest in one number."""
+        missing = np.maximum(0.0, -self.room(x)).sum()
+        return self.objective(x) + STRICTNESS * float(missing) + WORST * abs(self.score(x).unstable)
 
     def generation(self, x: np.ndarray, convergence: float) -> None:
         """One generation is done."""
@@ -140,42 +202,12 @@ class Counter:
             self._progress(min(1.0, self._done / self._generations))
 
 
-def _values(knobs: Sequence[Knob], x: np.ndarray) -> dict[str, float]:
-    return {knob.key: float(value) for knob, value in zip(knobs, np.exp(x), strict=True)}
-
-
 def _present(scenario: Scenario, key: str) -> float:
     _, section, name = key.split(".")
     return float(getattr(getattr(scenario.control, section), name))
 
 
-def _objective(score: Score, before: Score, objective: Objective) -> float:
-    """What shall be small."""
-    return float(np.log(score.compliance / before.compliance)) if objective == "rejection" else score.reflection
-
-
-def _room(score: Score, before: Score, objective: Objective) -> np.ndarray:
-    """What must not be negative: distance of every round trip from 1, and no loss in what is not the objective."""
-    room = np.log(SPARE / score.trips)
-    match objective:
-        case "ringdown":
-            return room
-        case "rejection":
-            return np.append(room, before.reflection - score.reflection)
-    return np.append(room, np.log(before.compliance / score.compliance) - FIRMER)
-
-
-def _cost(score: Score, before: Score, objective: Objective) -> float:
-    """Objective and what is missing to the rest in one number."""
-    missing = np.maximum(0.0, -_room(score, before, objective)).sum()
-    return _objective(score, before, objective) + STRICTNESS * float(missing) + 10.0 * abs(score.unstable)
-
-
-def _loop(scenario: Scenario, values: dict[str, float], thrust: float) -> SampledLoop:
-    return sampled_loop(changed(scenario, values), thrust)
-
-
-def changed(scenario: Scenario, values: dict[str, float]) -> Scenario:
+def changed(scenario: Scenario, values: Values) -> Scenario:
     """The scenario with some numbers of its control replaced and no check made: for the search only."""
     control = scenario.control
     for key, value in values.items():

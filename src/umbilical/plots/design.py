@@ -1,4 +1,4 @@
-"""What a design changes: decay over beta with what the motors can follow, reflection, and both simulations."""
+"""What a design changes: decay over beta with what the motors can follow, reflection, rejection, simulations."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umbilical.analysis.sampled import loop_response
+from umbilical.design.score import changes as demanded
 from umbilical.plots.figure import COLOURS, QUIET, at_sigma, new_figure
 
 if TYPE_CHECKING:
@@ -15,14 +17,20 @@ if TYPE_CHECKING:
     from umbilical.design.design import Design
 
 
+SHOWN_ROOM = 0.02
+"""How far below 1 a round trip is shown."""
+
+
 def plot_design(design: Design) -> Figure:
-    """Four panels: beta, reflection, midpoint and ROV over time, before and after."""
-    figure = new_figure(11.0, 7.5)
-    panels = figure.subplots(2, 2)
+    """Six panels: beta, reflection, rejection, round trips, midpoint and ROV over time, before and after."""
+    figure = new_figure(11.0, 10.5)
+    panels = figure.subplots(3, 2)
     plot_followed(design, panels[0, 0])
     plot_reflections(design, panels[0, 1])
-    plot_motion(design, panels[1, 0], 0.5, "midpoint")
-    plot_motion(design, panels[1, 1], 1.0, "ROV")
+    plot_rejection(design, panels[1, 0])
+    plot_trips(design, panels[1, 1])
+    plot_motion(design, panels[2, 0], 0.5, "midpoint")
+    plot_motion(design, panels[2, 1], 1.0, "ROV")
     figure.suptitle(f"{design.before.scenario.name}: designed for {design.objective}", fontsize=12)
     return figure
 
@@ -51,6 +59,29 @@ def plot_reflections(design: Design, ax: Axes) -> None:
     ax.semilogx(sweep.coarse, 1.0 / sweep.loudest, color=QUIET, linestyle=":", label="what the cable takes")
     ax.set_xlim(1e-2, None)
     _finish(ax, "reflection of the ROV |R|", "frequency [rad/s]", "")
+
+
+def plot_rejection(design: Design, ax: Axes) -> None:
+    """Displacement of the ROV per force on it: the disturbance that gets through."""
+    for number, side in enumerate((design.before, design.after)):
+        j = side.report.judgements[0]
+        response = loop_response(j.sweep.cable, j.sweep.loop, 1j * j.frequency)
+        label = ("before", "after")[number]
+        ax.loglog(j.frequency, response.compliance(), color=COLOURS[1 - number], linewidth=1.2, label=label)
+    ax.set_xlim(1e-2, None)
+    _finish(ax, "ROV per force on it, the cable without an end", "frequency [rad/s]", "[m/N]")
+
+
+def plot_trips(design: Design, ax: Axes) -> None:
+    """What a round trip makes of a wave under each change that the new loop shall survive: below 1."""
+    sweep = design.after.report.judgements[0].sweep
+    changes = demanded(design.after.demands, design.after.scenario.control.period)
+    for number, (name, factor) in enumerate(changes.items()):
+        size = sweep.loudest * np.abs(sweep.opened.reflection(factor(1j * sweep.coarse)))
+        ax.semilogx(sweep.coarse, size, color=COLOURS[number % len(COLOURS)], linewidth=1.0, label=name)
+    ax.axhline(1.0, color=QUIET, linestyle=":", linewidth=1.0)
+    ax.set(xlim=(1.0, None), ylim=(1.0 - SHOWN_ROOM, 1.0 + 0.1 * SHOWN_ROOM))
+    _finish(ax, "a round trip after, under what shall be survived", "frequency [rad/s]", "|echo R|")
 
 
 def plot_motion(design: Design, ax: Axes, sigma: float, name: str) -> None:

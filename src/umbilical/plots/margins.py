@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.patches import Circle
 
+from umbilical.analysis.sampled import loop_response
 from umbilical.plots.figure import COLOURS, QUIET, new_figure
 from umbilical.scenario.control import BoundaryLaw
 
@@ -20,8 +23,12 @@ LOWEST = 1e-2
 """rad/s; nothing happens below."""
 SHOWN_LOOP = 3.0
 """Largest |L| in the Nyquist picture, where a margin is read."""
-MOST_POINTS = 40_000
-"""Points of one curve."""
+DRAWN_MODES = 12
+"""Modes up to which L is drawn itself; above, a band says where it is with the echo in any phase."""
+PER_MODE = 2_000
+"""Points of the curve for each mode, which are narrow."""
+CIRCLES = 40
+"""For each length."""
 
 
 def plot_margins(report: MarginReport) -> Figure:
@@ -56,9 +63,9 @@ def plot_reflection(report: MarginReport, *, ax: Axes) -> Axes:
 def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
     """L in the complex plane near 1, where the closed loop has a pole on the unit circle."""
     for number, j in enumerate(report.judgements):
-        curve = _thinned(j)[1]
-        curve = np.where(np.abs(curve) < 2.0 * SHOWN_LOOP, curve, np.nan)
-        ax.plot(np.real(curve), np.imag(curve), color=COLOURS[number], linewidth=0.7)
+        for centre, radius in _circles(j):
+            place = (float(centre.real), float(centre.imag))
+            ax.add_patch(Circle(place, radius, fill=False, edgecolor=COLOURS[number], linewidth=0.6))
         if j.margins:
             edges = [1.0 / g.size for g in (j.margins.gain_low, j.margins.gain_high) if 0.0 < g.size < np.inf]
             ax.plot(edges, np.zeros(len(edges)), "|", color=COLOURS[number], markersize=12)
@@ -66,30 +73,51 @@ def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
     ax.plot(np.real(circle), np.imag(circle), color=QUIET, linestyle=":", linewidth=1.0)
     ax.plot([1.0], [0.0], "+", color="black", markersize=10)
     ax.set(xlim=(-SHOWN_LOOP, SHOWN_LOOP), ylim=(-SHOWN_LOOP, SHOWN_LOOP), aspect="equal")
-    return _finish(ax, "opened loop L; the bars are the gain margins", "imaginary part", "real part")
+    return _finish(ax, "L near 1, echo in any phase; bars: gain margins", "imaginary part", "real part")
 
 
 def plot_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
-    """Size and angle of L; marks where phase and delay are used up."""
+    """Size and angle of L: bands for the echo in any phase, lines for the first modes and where margins are used up."""
     size, angle = axes
     for number, j in enumerate(report.judgements):
-        w, curve = _thinned(j)
-        size.loglog(w, np.abs(curve), color=COLOURS[number], linewidth=0.7)
-        angle.semilogx(w, np.degrees(np.angle(curve)), ".", color=COLOURS[number], markersize=0.8)
+        colour = COLOURS[number]
+        centre, radius = j.sweep.circles()
+        middle = np.unwrap(np.angle(centre))
+        low, high = np.abs(np.abs(centre) - radius), np.abs(centre) + radius
+        aside = np.where(radius < np.abs(centre), np.arcsin(np.minimum(1.0, radius / np.abs(centre))), np.pi)
+        w, curve = _first_modes(j)
+        beside = np.interp(w, j.sweep.coarse, middle)
+        beside += np.angle(curve * np.exp(-1j * beside))
+        size.fill_between(j.sweep.coarse, low, high, color=colour, alpha=0.2, linewidth=0)
+        size.loglog(w, np.abs(curve), color=colour, linewidth=0.7)
+        angle.fill_between(
+            j.sweep.coarse, np.degrees(middle - aside), np.degrees(middle + aside), color=colour, alpha=0.2, linewidth=0
+        )
+        angle.semilogx(w, np.degrees(beside), ".", color=colour, markersize=0.8)
         for limit in (j.margins.phase, j.margins.delay) if j.margins else ():
             if np.isfinite(limit.frequency):
-                size.axvline(limit.frequency, color=COLOURS[number], linestyle=":", linewidth=0.9)
+                size.axvline(limit.frequency, color=colour, linestyle=":", linewidth=0.9)
     size.axhline(1.0, color=QUIET, linestyle=":", linewidth=1.0)
     for ax in axes:
         ax.set_xlim(LOWEST, None)
-    _finish(size, "size of L; lines where phase and delay are used up", "|L|")
-    _finish(angle, "angle of L", "degrees")
+    _finish(size, "size of L, band: echo in any phase; lines: phase and delay used up", "|L|")
+    _finish(angle, "angle of L, band: echo in any phase", "degrees")
 
 
-def _thinned(j: Judgement) -> tuple[np.ndarray, np.ndarray]:
-    w, curve = j.sweep.w, j.sweep.transfer()
-    keep = slice(None, None, max(1, w.size // MOST_POINTS))
-    return w[keep], curve[keep]
+def _first_modes(j: Judgement) -> tuple[np.ndarray, np.ndarray]:
+    """L over the first modes, on frequencies that resolve them."""
+    s = j.sweep
+    last = min(2.0 * np.pi * DRAWN_MODES / s.cable.round_trip, s.coarse[-1])
+    w = np.concatenate([s.coarse[s.coarse < LOWEST], np.linspace(LOWEST, last, PER_MODE * DRAWN_MODES)])
+    return w, loop_response(s.cable, s.loop, 1j * w).loop
+
+
+def _circles(j: Judgement) -> Iterator[tuple[complex, float]]:
+    """Where L is at some frequencies from the first mode on, the echo in any phase."""
+    centre, radius = j.sweep.circles()
+    first = np.searchsorted(j.sweep.coarse, 2.0 * np.pi / j.sweep.cable.round_trip)
+    for k in np.unique(np.linspace(first, centre.size - 1, CIRCLES).astype(int)):
+        yield complex(centre[k]), float(radius[k])
 
 
 def _finish(ax: Axes, title: str, ylabel: str, xlabel: str = "frequency [rad/s]") -> Axes:

@@ -1,0 +1,167 @@
+"""Rounds of search and simulation: gains with the demanded margins that also keep limits of the motors.
+
+The search sees the linear loop only. What a simulation says of its gains tells how much effort the limits allow,
+and the next round searches below that.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from umbilical.analysis.sampled import sampled_loop
+from umbilical.design.margins import MarginReport, margins
+from umbilical.design.score import Demands, Effort, Judge, Score
+from umbilical.design.search import Task, Values, explore, follow
+from umbilical.design.trial import Trial, attempt
+from umbilical.scenario.scenario import Scenario
+
+GENERATIONS = 90
+ROUNDS = 4
+RESERVES = (1.0, 2.0, 4.0)
+"""How many reserves are asked for, one after the other, until rounded gains keep the margins."""
+SAFER = 0.95
+"""A ceiling is so much of what the last simulation would allow: effort and simulation are not proportional."""
+TAMER = 0.5
+"""The same where a simulation did not come to its end and says nothing else."""
+SEARCH, TRIAL = 0.7, 0.3
+"""Shares of a round's progress."""
+LIKELY = 0.6
+"""Share of the progress still ahead that a round is given: mostly there is one only."""
+
+Excess = dict[str, tuple[float, float]]
+"""Value and limit of what is too large, by name."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What the motors shall not exceed in the trial; infinite where nothing is said.
+
+    Attributes:
+        voltage: V.
+        speed: rad/s.
+        chatter: RMS of a voltage above 10 Hz in the last third of the run, V.
+    """
+
+    voltage: float = np.inf
+    speed: float = np.inf
+    chatter: float = 0.05
+
+    def exceeded(self, trial: Trial) -> Excess:
+        """What is too large; nothing is, where there is no number."""
+        values = {"voltage": trial.voltage_peak, "speed": trial.speed_peak, "chatter": trial.chatter}
+        return {name: (x, getattr(self, name)) for name, x in values.items() if x > getattr(self, name)}
+
+
+@dataclass(frozen=True)
+class Side:
+    """A scenario before or after: its score, its margins at every length that is asked for, its trial."""
+
+    scenario: Scenario
+    demands: Demands
+    score: Score
+    report: MarginReport
+    trial: Trial
+
+    @property
+    def meets(self) -> bool:
+        """Whether the loop has the demanded margins at the lengths of the report."""
+        period = self.scenario.control.period
+        return all(self.demands.met_by(j.margins, period) for j in self.report.judgements)
+
+    @property
+    def kept(self) -> bool:
+        """Whether it has them there and, echoes in any phase, at every length in between and beyond."""
+        return self.meets and self.score.sound
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What the rounds have led to.
+
+    Attributes:
+        values: the new gains.
+        side: the scenario with them.
+        unlimited: the scenario with those of the first round, which knew of no limit.
+        limited: names of the limits under which was searched.
+    """
+
+    values: Values
+    side: Side
+    unlimited: Side
+    limited: tuple[str, ...]
+
+
+def side(task: Task, values: Values, progress: Callable[[float], None] | None = None) -> Side:
+    """A scenario with some values, judged and tried."""
+    new = task.scenario.replace(values)
+    score = Judge(task.scenario, task.shortest, task.demands).score(sampled_loop(new, task.thrust))
+    return Side(new, task.demands, score, _report(task, values), attempt(new, progress=progress))
+
+
+def _report(task: Task, values: Values) -> MarginReport:
+    return margins(task.scenario.replace(values), operating_thrust=task.thrust)
+
+
+def design_within(task: Task, limits: Limits, progress: Callable[[float], None]) -> Outcome:
+    """The best gains of a task that keep the limits, or those that exceed them least."""
+    tried: list[tuple[Values, Side]] = []
+    names: set[str] = set()
+    done = 0.0
+    for _ in range(ROUNDS):
+        ahead = LIKELY * (1.0 - done)
+        tried.append(_round(task, tried[-1][0] if tried else None, _part(progress, done, ahead)))
+        done += ahead
+        now = tried[-1][1]
+        over = limits.exceeded(now.trial)
+        if not now.kept or (now.trial.completed and not over):
+            break
+        names |= set(over)
+        task = replace(task, ceilings=_lowered(task.ceilings, now, over))
+    values, best = min(tried, key=lambda pair: _badness(pair[1], limits))
+    return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else ())
+
+
+def _round(task: Task, begun: Values | None, progress: Callable[[float], None]) -> tuple[Values, Side]:
+    eager = replace(task, demands=task.demands.beyond(RESERVES[0]))
+    near = explore(eager, generations=GENERATIONS, begun=begun, progress=_part(progress, 0.0, SEARCH))
+    values = _settled(task, near)
+    return values, side(task, values, _part(progress, 1.0 - TRIAL, TRIAL))
+
+
+def _settled(task: Task, near: Values) -> Values:
+    """Rounded gains that keep the demands: at the edge of what is allowed, and further inside where they do not."""
+    values = near
+    for reserves in RESERVES:
+        values = follow(replace(task, demands=task.demands.beyond(reserves)), near)
+        if _keeps(task, values):
+            break
+    return values
+
+
+def _keeps(task: Task, values: Values) -> bool:
+    if not task.judge().score(task.loop(values)).sound:
+        return False
+    period = task.scenario.control.period
+    return all(task.demands.met_by(j.margins, period) for j in _report(task, values).judgements)
+
+
+def _lowered(ceilings: Effort, now: Side, over: Excess) -> Effort:
+    """Ceilings under which the next gains should keep the limits that these exceed, or run to the end."""
+    shares = {name: SAFER * limit / x for name, (x, limit) in over.items()}
+    if not now.trial.completed:
+        shares = {"voltage": TAMER, "speed": TAMER}
+    return Effort(**ceilings._asdict() | {name: x * getattr(now.score.effort, name) for name, x in shares.items()})
+
+
+def _badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:
+    """Margins come first, then a run to its end, then the largest excess over a limit."""
+    excess = max((x / limit for x, limit in limits.exceeded(found.trial).values()), default=1.0)
+    return (not found.kept, not found.trial.completed, excess)
+
+
+def _part(progress: Callable[[float], None], begun: float, share: float) -> Callable[[float], None]:
+    """Progress of a part of the work."""
+    return lambda x: progress(begun + share * x)
