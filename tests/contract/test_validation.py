@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from umbilical.verify import FAMILIES
+import pytest
+
+from umbilical.verify import FAMILIES, verify_all
 
 PAGE = (Path(__file__).parents[2] / "docs" / "validation.md").read_text(encoding="utf-8")
 
@@ -23,6 +25,12 @@ def rows(page: str) -> dict[str, list[str]]:
 def test_every_case_is_on_the_page() -> None:
     """If this fails: .venv/bin/python tools/make_validation.py"""
     assert rows(PAGE) == {family: [case.name for case in cases] for family, cases in FAMILIES.items()}
+
+
+@pytest.mark.slow
+def test_the_headline_is_of_today() -> None:
+    """If this fails: .venv/bin/python tools/make_validation.py"""
+    assert f"**{verify_all().headline}**" in PAGE
 
 
 def test_all_of_them_hold() -> None:
