@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import say, say_json, table, tell
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table, tell
 
 if TYPE_CHECKING:
     from umbilical.studies.tune import Tuned
@@ -67,7 +67,7 @@ def tune(
         say_json({**found.document(), "files": files})
     else:
         say("\n\n".join([_report(found), *(f"{role}: {path}" for role, path in files.items())]))
-    return 0
+    return 0 if found.front else DOES_NOT_HOLD
 
 
 def _report(found: Tuned) -> str:
@@ -78,8 +78,9 @@ def _report(found: Tuned) -> str:
     rows = [(*(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values)) for t in found.front]
     kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
     text = f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
+    text += "\nbroken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
     if not rows:
-        return f"{text}; none is left to choose"
+        return f"{text}\nnone is left to choose"
     what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
     more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
-    return f"{text} ({', '.join(found.conditions)})\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
+    return f"{text}\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"

@@ -58,11 +58,12 @@ def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
     """
     here: Any = scenario
     field: FieldInfo | None = None
-    units: list[str] = []
+    units = [""]
     for step in key.split("."):
         if isinstance(here, Record):
             field = type(here).model_fields.get(step)
-            units = word(field, "unit").split(", ")
+            own = word(field, "unit")
+            units = own.split(", ") if own or not isinstance(here, _InUnitOfItsOwner) else units
             here = getattr(here, step, None)
         elif isinstance(here, tuple) and step.isdecimal() and 1 <= int(step) <= len(here):
             units = units[int(step) - 1 :] or units[-1:]  # one unit for each place of a list, the last for all others

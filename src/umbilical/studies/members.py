@@ -62,7 +62,16 @@ def needed_of_a_fault(kind: str) -> tuple[str, ...]:
 def units_of_a_fault(campaign: Campaign) -> dict[str, str]:
     """Unit of each part of a campaign's faults."""
     stuck = "V" if campaign.target == "voltage" else "rad2/s2"
-    return {"kind": "", "motor": "", "start": "s", "effectiveness": "1", "value": stuck, "over": "s", "cycle": "s", "duty": "1"}
+    return {
+        "kind": "",
+        "motor": "",
+        "start": "s",
+        "effectiveness": "1",
+        "value": stuck,
+        "over": "s",
+        "cycle": "s",
+        "duty": "1",
+    }
 
 
 @dataclass(frozen=True)

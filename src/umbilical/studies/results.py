@@ -72,13 +72,17 @@ class StudyResult:
         draws = Draws(self.study)
         return draws.scenario(draws.member(member), 0 if arm is None else arms.index(arm))
 
+    def ended(self, arm: str, status: str) -> np.ndarray:
+        """Whether each member ended so in an arm; a status of :data:`~umbilical.studies.rows.STATUSES`."""
+        return self.data["status"].sel(arm=arm).values == STATUSES.index(status)
+
     def values(self, metric: str, arm: str) -> np.ndarray:
         """A metric of every member in one arm: infinite where the run diverged or failed, since that is worse than
-        any number; not a number where the scenario was refused."""
+        any number; not a number where the scenario was refused, or has no such metric (a peak after no fault)."""
         chosen = self.data.sel(arm=arm)
-        status = chosen["status"].values
-        values = np.where(status == STATUSES.index("COMPLETED"), chosen[metric].values, np.inf)
-        return np.where(status == STATUSES.index("REFUSED"), np.nan, values)
+        found = chosen[metric].values if metric in chosen else np.full(chosen.sizes["member"], np.nan)
+        values = np.where(self.ended(arm, "COMPLETED"), found, np.inf)
+        return np.where(self.ended(arm, "REFUSED"), np.nan, values)
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Store as NetCDF4; the same study gives the same bytes.
