@@ -62,15 +62,16 @@ def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
     for step in key.split("."):
         if isinstance(here, Record):
             field = type(here).model_fields.get(step)
-            own = word(field, "unit")
-            units = own.split(", ") if own or not isinstance(here, _InUnitOfItsOwner) else units
+            units = [unit for unit in word(field, "unit").split(", ") if unit] or units  # a signal's: what it is of
             here = getattr(here, step, None)
         elif isinstance(here, tuple) and step.isdecimal() and 1 <= int(step) <= len(here):
             units = units[int(step) - 1 :] or units[-1:]  # one unit for each place of a list, the last for all others
             here = here[int(step) - 1]
         else:
             return "", ""
-    return (units[0], field.description or "") if field else ("", "")
+    if field is None:
+        return "", ""
+    return "" if isinstance(here, str) else units[0], field.description or ""
 
 
 def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[Entry]:
