@@ -122,7 +122,7 @@ def test_tune_ends_with_a_scenario_to_run(umbilical, tmp_path):
     document = done.document()
     assert document["front"]
     assert json.loads((tmp_path / "out" / "tuning.json").read_text())["trials"] == document["trials"]
-    assert umbilical("run", tmp_path / "out" / "tuned.toml").code == 0
+    assert umbilical("run", tmp_path / "out" / "tuned-1.toml").code == 0
     again = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--resume")
     assert "no other trial beats these" in again.out
     assert umbilical("tune", "fault-map", "--out", tmp_path / "none").code == 2

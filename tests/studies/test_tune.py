@@ -95,7 +95,7 @@ def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, name, monke
     monkeypatch.setattr(tune, "judge", lambda *a: calls.append(a) or judge(*a))
     tune.tune(study, tmp_path / "cut", optimiser=name, resume=True)
     assert 0 < len(calls) < 12
-    for file in ("tuning.json", "tuned.toml"):
+    for file in ("tuning.json", "tuned-1.toml"):
         assert (tmp_path / "cut" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
 
 

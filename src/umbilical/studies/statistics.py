@@ -48,6 +48,13 @@ def against(result: StudyResult, metric: str, arm: str, other: str) -> Compariso
     return Comparison(members, *(_as_sure_as_it_is(result, estimate) for estimate in found))
 
 
+def ratios(result: StudyResult, metric: str, arm: str, other: str) -> np.ndarray:
+    """One arm's values over another's, member by member; 1 where both are equal or both infinite."""
+    values, reference = result.values(metric, arm), result.values(metric, other)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(values == reference, 1.0, values / reference)
+
+
 def caveat(design: Method) -> str:
     """What the intervals of a design are worth; empty where they are what they say."""
     if design in NO_SAMPLE:

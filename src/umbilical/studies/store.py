@@ -16,7 +16,7 @@ from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Study
 
 MANIFEST, JOURNAL, LOCK, RUNS = "manifest.json", "journal.txt", "lock", "runs"
-RESULTS = ("study.nc", "tuning.json", "tuned.toml")
+RESULTS = ("study.nc", "tuning.json", "tuned-[0-9]*.toml")
 STORED = "member-*-arm-*.nc"
 """Complete runs, in the folder ``runs``."""
 _PARTS = ".umbilical-*.part"
@@ -139,8 +139,9 @@ def _make(folder: Path) -> None:
 
 def _clear(folder: Path) -> None:
     """Remove what this module wrote, and nothing else; the manifest last, which says whose all the rest is."""
-    for path in [*(folder / name for name in (*RESULTS, JOURNAL)), *(folder / RUNS).glob(STORED), folder / MANIFEST]:
-        path.unlink(missing_ok=True)
+    for pattern in (*RESULTS, JOURNAL, f"{RUNS}/{STORED}", MANIFEST):
+        for path in folder.glob(pattern):
+            path.unlink()
     with suppress(OSError):  # it is not there, or holds what is not ours
         (folder / RUNS).rmdir()
 

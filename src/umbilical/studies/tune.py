@@ -68,6 +68,11 @@ class Tuned:
         verdicts = [trial.verdict.violations for trial in self.trials]
         return {name: sum(v[k] > 0.0 for v in verdicts) for k, name in enumerate(self.conditions)}
 
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Name of the scenario of each trial of the front, in the folder of the search."""
+        return tuple(f"tuned-{number}.toml" for number in range(1, len(self.front) + 1))
+
     def document(self) -> dict[str, Any]:
         """As plain data, the same for the same search."""
         best = self.front
@@ -102,7 +107,8 @@ def tune(
 
     Args:
         study: with a section ``tuning``.
-        folder: where trials are kept as they go, ``tuning.json`` and ``tuned.toml`` in the end; None keeps nothing.
+        folder: where trials are kept as they go, ``tuning.json`` and a scenario for each trial of the front,
+            ``tuned-1.toml`` and so on, in the end; None keeps nothing.
         optimiser: ``optuna``, ``scipy``, or ``auto`` for the first that is installed.
         engine: who runs the members of a trial; all cores of this machine by default.
         constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
@@ -246,8 +252,8 @@ def _up_to_a_list(key: str) -> list[str]:
 
 def _keep(store: Store, found: Tuned) -> None:
     store.save((json.dumps(found.document(), indent=1) + "\n").encode(), "tuning.json")
-    if found.front:
-        store.save(found.patch(found.front[0]).encode(), "tuned.toml")
+    for name, trial in zip(found.files, found.front, strict=True):
+        store.save(found.patch(trial).encode(), name)
 
 
 def _plain(trial: Trial) -> dict[str, Any]:
