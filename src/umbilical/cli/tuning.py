@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from typer import Argument, Option
 
 from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table, tell
-
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:

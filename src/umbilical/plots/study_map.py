@@ -74,7 +74,7 @@ def plot_map(
     found = _cells(result, ratios(result, metric, arm, over) if over else result.values(metric, arm), across, up, where)
     style = _around_one(found.mean) if over else {"cmap": "viridis", "vmin": 0.0, "vmax": top or _largest(found.mean)}
     picture = ax.pcolormesh(across.edges, up.edges, found.mean.T, **style)
-    words = f"{metric}, ratio to '{over}'" if over else label(metric)
+    words = f"ratio of {metric}" if over else label(metric)
     words = f"mean of {words}" if found.members > 1 else words
     bar = ax.get_figure(root=True).colorbar(picture, ax=ax, label=words)  # type: ignore[union-attr]
     if over:
