@@ -14,6 +14,7 @@ from robust import FAULT, PROPOSED, STIFF, faults, headline, loops, margins, tab
 from words import between, millimetres, paragraph, rows_of
 
 from umbilical.plots import as_figure, plot_study, plot_tuning, save_figure
+from umbilical.plots.tuning import label_of
 from umbilical.studies import tune
 from umbilical.studies.engines import default_jobs, threads
 from umbilical.studies.load import load_study
@@ -27,6 +28,8 @@ IMAGES = ROOT / "docs" / "img"
 NOISE = {"sensors.tip_displacement.noise": 1e-3, "sensors.tip_slope.noise": 1e-5}
 """A millimetre, and a hundredth of a milliradian: assumed, of a good positioning system and inclinometer."""
 NOISY_MEMBERS = 64
+SHOWN = 5
+"""Points of the front that the page shows."""
 PAPERS = {"control.law.slope_gain": 0.01, "control.disturbance_observer.gain": 5.0}
 """Gains of the preset 'paper', to compare the tuned ones with."""
 
@@ -84,16 +87,19 @@ def map_in_words(result: StudyResult) -> str:
 
 
 def front(searched: tune.Tuned) -> str:
-    """The front, the paper's gains on the same draws, and what the linearised sampled loop says of each."""
-    names = [tune.name_of(objective) for objective in tune.tuning_of(searched.study).objectives]
-    rows = [["", *(f"`{key}`" for key in PAPERS), *(f"{name}, mm" for name in names), "thrust up to", "phase", "lag"]]
+    """Some of the front, the paper's gains on the same draws, and what the linearised sampled loop says of each."""
+    names = [label_of(objective) for objective in tune.tuning_of(searched.study).objectives]
+    rows = [["", *(f"`{key}`" for key in PAPERS), *names, "thrust up to", "phase", "lag"]]
     papers = tune.Trial(PAPERS, tune.judge(searched.study, PAPERS, {}, threads(default_jobs())))
-    for label, trial in zip((*searched.files, "the paper's gains"), (*searched.front, papers), strict=True):
-        numbers = [*(trial.gains[key] for key in PAPERS), *(1e3 * value for value in trial.verdict.values)]
+    shown = np.unique(np.linspace(0, len(searched.front) - 1, SHOWN).round().astype(int))
+    told_of = [(f"`{searched.files[k]}`", searched.front[k]) for k in shown]
+    for label, trial in (*told_of, ("the paper's gains", papers)):
+        numbers = [*(trial.gains[key] for key in PAPERS), *trial.verdict.values]
         tuned = searched.study.scenario.replace({**searched.study.changes, **trial.gains})
         rows.append([label, *(f"{number:.3g}" for number in numbers), *margins(tuned)])
     broken = ", ".join(f"{name} {count}" for name, count in searched.broken.items())
-    return f"{len(searched.trials)} trials by {searched.optimiser}; conditions broken: {broken}.\n\n{rows_of(rows)}"
+    head = f"{len(searched.trials)} trials by {searched.optimiser}; conditions broken: {broken}."
+    return f"{head} Of the {len(searched.front)} points of the front {len(shown)} are shown:\n\n{rows_of(rows)}"
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ def headline(result: StudyResult) -> str:
     """The answer, first."""
     paper, stiff = (against(result, "tip_peak", PROPOSED, other) for other in (PD, STIFF))
     effort = against(result, "effort_rms", PROPOSED, STIFF)
+    lost = np.count_nonzero(result.ended(STIFF, "DIVERGED"))
     pd, mine, its = (at(result, "tip_peak", arm, 0.5).value for arm in (PD, STIFF, PROPOSED))
     return paragraph(
         f"**The proposed law keeps the ROV {1.0 / paper.ratio.value:.0f} times nearer than the paper's PD, and",
@@ -31,7 +32,10 @@ def headline(result: StudyResult) -> str:
         f"paper's PD, {millimetres(mine)} with the stiff one and {millimetres(its)} with the proposed law,",
         "which is the",
         f"nearer of these two in {percent(stiff.better)} of the draws. The thrust asked for is the same (ratio",
-        f"{told(effort.ratio)}). So what looks like the merit of the law is the weakness of the gains it is compared",
+        f"{told(effort.ratio)}). The stiff PD has its price: it diverged in {lost} of the draws, of strong",
+        "thrusters, and",
+        "noise and lag trouble it more (below). So what looks like the merit of the law is the weakness of the",
+        "gains it is compared",
         "with. The stiff PD measures what the proposed law measures, through the same observer; its gains are",
         "ours, and",
         "its loop is judged below.",
@@ -129,14 +133,22 @@ def _box(result: StudyResult) -> str:
 
 
 def _endings(result: StudyResult) -> str:
-    lost = sum(int(np.count_nonzero(~result.ended(arm, "COMPLETED"))) for arm in result.arms)
-    if lost:
-        return item(f"**{lost} runs did not complete.**")
-    return item(
-        "**Nothing diverged**, with or without fault control: the paper's claim that the loop may diverge",
-        "without it is",
-        "not seen on any of these draws.",
-    )
+    """Which arms lost runs; those that lost none are told of together."""
+    strength, nominal = _thrust(result)
+    lost = {arm: np.flatnonzero(~result.ended(arm, "COMPLETED")) for arm in result.arms}
+    told_of = [
+        f"**{arm} lost {places.size} of {strength.size} runs** (the largest displacement is infinite there),",
+        "with thrust"
+        f" coefficients that add up to {', '.join(f'{strength[k]:.3g}' for k in places)} instead of {nominal:.3g}."
+        for arm, places in lost.items()
+        if places.size
+    ]
+    if not (lost[PROPOSED].size or lost[FAULT].size):
+        told_of += [
+            "**The proposed law never diverged**, with or without fault control: the paper's claim that the loop may",
+            "diverge without it is not seen on any of these draws.",
+        ]
+    return item(*told_of)
 
 
 def _worst_tenth(values: np.ndarray) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -76,8 +77,14 @@ def tune(
     if as_json:
         say_json({**found.document(), "files": files})
     else:
-        say("\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in files.items())]))
+        say("\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]))
     return 0 if found.front else DOES_NOT_HOLD
+
+
+def _shortened(files: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Of many scenarios the first and the last."""
+    scenarios = [role for role in files if role.startswith("scenario")]
+    return [(role, path) for role, path in files.items() if role not in scenarios[1:-1]]
 
 
 def _report(found: Tuned) -> str:

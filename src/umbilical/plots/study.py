@@ -80,8 +80,9 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         found = against(result, metric, arm, other)
         ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
+        zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
         words = f"{arm}\n  over {other}: median {told(found.ratio, 3)}"
-        shares = np.arange(1, ratio.size + 1) / max(found.members, 1)
+        shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
         ax.step(ratio, shares, where="post", color=_colour(colour), linestyle=_dashes(colour), label=words)
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))

@@ -37,7 +37,7 @@ def plot_tuning(found: Tuned, *, ax: Axes | None = None) -> Axes:
     ax.plot(*best.T, "o-", color=COLOURS[1], label="no other trial beats these")
     for number, point in enumerate(best, start=1):
         ax.annotate(str(number), point, xytext=(4, 4), textcoords="offset points", fontsize=8)
-    words = [_label(objective) for objective in objectives]
+    words = [label_of(objective) for objective in objectives]
     ax.set(**dict(zip(("xlabel", "ylabel"), words if len(words) == 2 else ("trial", *words), strict=True)))
     for axis, values in (("x", points[:, 0]), ("y", points[:, 1])):
         if values.min() > 0.0 and values.max() > _DECADE * values.min() and (axis == "y" or len(words) == 2):
@@ -57,5 +57,6 @@ def _number(found: Tuned, values: tuple[float, ...]) -> int:
     return next(k for k, trial in enumerate(found.trials, start=1) if trial.verdict.values == values)
 
 
-def _label(objective: Objective) -> str:
+def label_of(objective: Objective) -> str:
+    """An objective in words, with its unit."""
     return f"{name_of(objective)} [{METRICS[objective.metric].unit}]"
