@@ -29,16 +29,12 @@ def headline(result: StudyResult) -> str:
         f"**The proposed law keeps the ROV {1.0 / paper.ratio.value:.0f} times nearer than the paper's PD, and",
         f"{stiff.ratio.value:.2f} times as far away as a PD with stiffer gains.**",
         f"On {paper.members} draws with a fault each, the median of the largest displacement is {pd:.3g} m with the",
-        f"paper's PD, {millimetres(mine)} with the stiff one and {millimetres(its)} with the proposed law,",
-        "which is the",
-        f"nearer of these two in {percent(stiff.better)} of the draws. The thrust asked for is the same (ratio",
-        f"{told(effort.ratio)}). The stiff PD has its price: it diverged in {lost} of the draws, of strong",
-        "thrusters, and",
-        "noise and lag trouble it more (below). So what looks like the merit of the law is the weakness of the",
-        "gains it is compared",
-        "with. The stiff PD measures what the proposed law measures, through the same observer; its gains are",
-        "ours, and",
-        "its loop is judged below.",
+        f"paper's PD, {millimetres(mine)} with the stiff one and {millimetres(its)} with the proposed law, which is",
+        f"the nearer of these two in {percent(stiff.better)} of the draws. The thrust asked for is the same",
+        f"(ratio {told(effort.ratio)}). So most of what looks like the merit of the law is the weakness of the gains it",
+        "is compared with. What it has over the stiff PD is robustness to strong thrusters and to lag, and less noise",
+        f"in the thrust: the stiff PD diverged in {lost} of the draws, and its loop is judged below. It measures what the",
+        "proposed law measures, through the same observer; its gains are ours.",
     )
 
 
@@ -137,9 +133,8 @@ def _endings(result: StudyResult) -> str:
     strength, nominal = _thrust(result)
     lost = {arm: np.flatnonzero(~result.ended(arm, "COMPLETED")) for arm in result.arms}
     told_of = [
-        f"**{arm} lost {places.size} of {strength.size} runs** (the largest displacement is infinite there),",
-        "with thrust"
-        f" coefficients that add up to {', '.join(f'{strength[k]:.3g}' for k in places)} instead of {nominal:.3g}."
+        f"**{arm} lost {places.size} of {strength.size} runs**, with thrust coefficients that add up to "
+        f"{' and '.join(f'{strength[k]:.3g}' for k in places)} N s2/rad2 instead of {nominal:.3g}."
         for arm, places in lost.items()
         if places.size
     ]

@@ -28,7 +28,7 @@ def item(*sentences: str) -> str:
 
 def millimetres(value: float) -> str:
     """A short length in words."""
-    return f"{1e3 * value:.3g} mm"
+    return f"{1e3 * value:.3g}\N{NO-BREAK SPACE}mm"
 
 
 def between(text: str, name: str, content: str) -> str:
