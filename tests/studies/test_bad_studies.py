@@ -109,7 +109,7 @@ def test_a_list_of_the_study_can_be_drawn_from():
     factor = {"key": "environment.payload_force.1.value", "relative": True, "distribution": UNIFORM}
     study = small_study(changes={"environment.payload_force": force}, factors=[factor])
     draws = Draws(study)
-    assert 5.0 <= draws.scenario(draws.member(1), 0).environment.payload_force[0].value <= 10.0
+    assert 5.0 <= draws.scenario(draws.member(1), 0).to_dict()["environment"]["payload_force"][0]["value"] <= 10.0
 
 
 @pytest.mark.parametrize("text", ["", "members = 3", 'scenario = "papr"', "scenario = 3", "scenario = ["])

@@ -31,10 +31,10 @@ def headline(result: StudyResult) -> str:
         f"On {paper.members} draws with a fault each, the median of the largest displacement is {pd:.3g} m with the",
         f"paper's PD, {millimetres(mine)} with the stiff one and {millimetres(its)} with the proposed law, which is",
         f"the nearer of these two in {percent(stiff.better)} of the draws. The thrust asked for is the same",
-        f"(ratio {told(effort.ratio)}). So most of what looks like the merit of the law is the weakness of the gains it",
-        "is compared with. What it has over the stiff PD is robustness to strong thrusters and to lag, and less noise",
-        f"in the thrust: the stiff PD diverged in {lost} of the draws, and its loop is judged below. It measures what the",
-        "proposed law measures, through the same observer; its gains are ours.",
+        f"(ratio {told(effort.ratio)}). So most of what looks like the merit of the law is the weakness of the gains",
+        "it is compared with. What it has over the stiff PD: no draw is lost, of which the stiff PD lost",
+        f"{lost}, there is more room for lag, and less noise gets into the thrust; its gain margin is smaller (below).",
+        "The stiff PD measures what the proposed law measures, through the same observer; its gains are ours.",
     )
 
 
@@ -92,10 +92,9 @@ def _typical(result: StudyResult) -> str:
     return item(
         "**Fault control makes the typical draw worse and cuts the tail.**",
         f"With it the ROV moves {peak:.2f} times as far (median of the paired ratios), {rms:.2f} times in rms:",
-        "its `kappa` starts at half of what the thrusters ask for, and the disturbance observer already takes",
-        "up what a",
-        "failed motor does not deliver. In the tenth of the draws in which the law without it does worst, it is",
-        "better in",
+        "its `kappa` starts at half of what the thrusters ask for, and the disturbance observer already takes up",
+        "what a failed motor does not deliver. In the tenth of the draws in which the law without it does worst,",
+        "it is better in",
         f"{100 * (ratio[tenth] < 1.0).mean():.3g} %, with a median ratio of {np.median(ratio[tenth]):.2f};",
         f"the 95 % quantile falls from {q95[0]} to {q95[1]},",
         f"the largest from {millimetres(without.max())} to {millimetres(with_it.max())}.",
@@ -111,11 +110,9 @@ def _weak(result: StudyResult) -> str:
         f"**That tenth is one of dead and stuck motors**: {100 * hard[tenth].mean():.3g} % of it, against",
         f"{100 * hard.mean():.3g} % of all draws. Its thrusters are not all weak: the coefficients of both add up to",
         f"{np.median(strength[tenth]):.3g} N s2/rad2 in its median and to {strength[tenth].max():.3g} at most,",
-        "where the",
-        f"nominal ones make {nominal:.3g}. Over all draws fault control is better in",
-        f"{100 * wins[hard].mean():.3g} % of",
-        f"those with a dead or stuck motor, and in {100 * wins[~hard].mean():.3g} % of those with a partial",
-        "fault or wear.",
+        f"where the nominal ones make {nominal:.3g}. Over all draws fault control is better in",
+        f"{100 * wins[hard].mean():.3g} % of those with a dead or stuck motor, and in",
+        f"{100 * wins[~hard].mean():.3g} % of those with a partial fault or wear.",
     )
 
 

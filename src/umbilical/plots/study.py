@@ -38,7 +38,7 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
         values = np.sort(values[~np.isnan(values)])
         shares = np.arange(1, values.size + 1) / max(values.size, 1)
         finite = np.isfinite(values)
-        style = {"color": _colour(colour), "linestyle": _dashes(colour)}
+        style = {"color": _colour(colour), **_dashes(colour)}
         named = f"{arm}\n  {_in_words(result, metric, arm)}"
         ax.step(values[finite], shares[finite], where="post", label=named, **style)
         for share in (0.5, 0.95):
@@ -83,7 +83,7 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
         words = f"{arm}\n  over {other}: median {told(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
-        ax.step(ratio, shares, where="post", color=_colour(colour), linestyle=_dashes(colour), label=words)
+        ax.step(ratio, shares, where="post", color=_colour(colour), label=words, **_dashes(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")
@@ -173,9 +173,9 @@ def _colour(number: int) -> str:
     return COLOURS[number % len(COLOURS)]
 
 
-def _dashes(number: int) -> str:
-    """Neighbours differ in dashes too, so that both show where they agree."""
-    return ("-", "--")[number % 2]
+def _dashes(number: int) -> dict[str, Any]:
+    """Neighbours differ in dashes, the dashed ones on top, so that both show where they agree."""
+    return {"linestyle": "--", "zorder": 3} if number % 2 else {}
 
 
 def _logarithmic_if_wide(ax: Axes, values: np.ndarray) -> None:

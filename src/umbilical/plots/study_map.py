@@ -72,13 +72,15 @@ def plot_map(
     ax = ax or new_figure(6.0, 4.2).add_subplot()
     across, up = (_axis(result, name) for name in (x, y))
     found = _cells(result, ratios(result, metric, arm, over) if over else result.values(metric, arm), across, up, where)
-    style = _around_one(found.mean) if over else {"cmap": "viridis", "vmin": 0.0, "vmax": top or _largest(found.mean)}
+    style: dict[str, Any] = (
+        _around_one(found.mean) if over else {"cmap": "viridis", "vmin": 0.0, "vmax": top or _largest(found.mean)}
+    )
     picture = ax.pcolormesh(across.edges, up.edges, found.mean.T, **style)
     words = f"ratio of {metric}" if over else label(metric)
     words = f"mean of {words}" if found.members > 1 else words
     bar = ax.get_figure(root=True).colorbar(picture, ax=ax, label=words)  # type: ignore[union-attr]
     if over:
-        ticks = np.geomspace(picture.norm.vmin, picture.norm.vmax, 5)
+        ticks = np.geomspace(style["norm"].vmin, style["norm"].vmax, 5)
         bar.set_ticks(ticks, labels=[f"{tick:.3g}" for tick in ticks], minor=False)
         bar.minorticks_off()
     _mark_lost(ax, across, up, found.lost)
@@ -163,7 +165,7 @@ def _around_one(ratio: np.ndarray) -> dict[str, Any]:
 
 def _mark_lost(ax: Axes, x: Axis, y: Axis, lost: np.ndarray) -> None:
     """How many runs of a cell did not complete, in percent, where any did not."""
-    across, up = ((axis.edges[1:] + axis.edges[:-1]) / 2.0 for axis in (x, y))
+    across, up = (((axis.edges[1:] + axis.edges[:-1]) / 2.0).tolist() for axis in (x, y))
     for column, row in np.argwhere(lost > 0.0):
         words = f"{100.0 * lost[column, row]:.0f} %\nlost"
         box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
