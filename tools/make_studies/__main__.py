@@ -37,9 +37,9 @@ PAPERS = {"control.law.slope_gain": 0.01, "control.disturbance_observer.gain": 5
 def main() -> None:
     """Studies, pictures, page."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "out" / "studies"
-    robust, mapped = (found(load_study(name), folder / name) for name in ("paper-robustness", "fault-map"))
-    noisy = found(with_noise(robust.study), folder / "noise")
-    tuned = tune.tune(load_study("gain-tuning"), folder / "gain-tuning", resume=True)
+    robust, mapped = (found(load_study(name), folder) for name in ("paper-robustness", "fault-map"))
+    noisy, gains = found(with_noise(robust.study), folder), load_study("gain-tuning")
+    tuned = tune.tune(gains, place(gains, folder), resume=True)
     save_figure(plot_study(robust, "tip_peak"), IMAGES / "paper-robustness.png", force=True)
     save_figure(plot_study(mapped, "tip_peak_after_fault"), IMAGES / "fault-map.png", force=True)
     save_figure(as_figure(plot_tuning(tuned)), IMAGES / "gain-tuning.png", force=True)
@@ -60,10 +60,13 @@ def main() -> None:
 
 def found(study: Study, folder: Path) -> StudyResult:
     """The result that is there, if it is of this very study, else a new one."""
-    stored = folder / "study.nc"
-    if stored.exists() and (result := open_study(stored)).study == study:
-        return result
-    return sweep(study, folder, resume=True)
+    stored = place(study, folder) / "study.nc"
+    return open_study(stored) if stored.exists() else sweep(study, stored.parent, resume=True)
+
+
+def place(study: Study, folder: Path) -> Path:
+    """Each version of a study has a folder of its own."""
+    return folder / f"{study.name}-{study.hash[:12]}"
 
 
 def with_noise(study: Study) -> Study:
