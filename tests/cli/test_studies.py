@@ -9,6 +9,9 @@ import pytest
 
 from tests.support.studies import small_study
 from umbilical import load, simulate
+from umbilical.cli.study_report import study_document
+from umbilical.studies.results import open_study
+from umbilical.studies.rows import STATUSES
 from umbilical.studies.sweep import sweep
 
 
@@ -44,6 +47,39 @@ def test_json_of_a_sweep_is_one_object(umbilical, study, tmp_path):
     assert document["endings"]["PD"]["COMPLETED"] == 6
     assert document["metrics"]["tip_peak"]["proposed"]["compared"]["ratio"]["high"] > 0.0
     assert set(document["limits"]) == {"tip_peak"}
+    assert document["metrics"]["tip_peak"]["PD"]["median"]["status"] == "finite"
+    assert "wide" in document["intervals"]
+
+
+def test_a_sweep_of_which_nothing_completes_says_so_and_why(umbilical, study, tmp_path):
+    damping = '{key = "control.law.damping_gain", distribution = {kind = "choice", values = [1e8]}}'
+    words = ["--set", f"factors=[{damping}]", "--set", 'arms=[{name = "one"}]', "--set", "limits={tip_peak = 1.0}"]
+    done = umbilical("sweep", study, *words, "--out", tmp_path / "out")
+    assert done.code == 7
+    assert "6 REFUSED" in done.out
+    assert "no member completed" in done.out
+    stored = tmp_path / "out" / "study.nc"
+    document = umbilical("show", stored, "--json").document()
+    assert document["reasons"]["one"][0]["count"] == 6
+    assert document["limits"]["tip_peak"]["one"]["status"] == "none"
+    refused = umbilical("plot", stored, "--out", tmp_path / "a.png")
+    assert (refused.code, "no member completed" in refused.err) == (2, True)
+
+
+def test_what_is_asked_of_a_result_is_in_its_json_too(umbilical, result):
+    shown = umbilical("show", result, "--json", "--metric", "mid_rms", "--sensitivity", "tip_peak").document()
+    assert set(shown["metrics"]) == {"mid_rms"}
+    assert shown["sensitivity"]["metric"] == "tip_peak"
+    assert "too few" in shown["sensitivity"]["arms"]["PD"]["reason"]
+
+
+def test_null_of_a_run_that_diverged_is_told_from_null_of_none(result):
+    found = open_study(result)
+    found.data["status"][:4, 0] = STATUSES.index("DIVERGED")
+    found.data["status"][:, 1] = STATUSES.index("REFUSED")
+    metrics = study_document(found)["metrics"]["tip_peak"]
+    assert [metrics[arm]["q95"]["status"] for arm in found.arms] == ["infinite", "none"]
+    assert metrics["PD"]["median"]["status"] == "infinite"
 
 
 def test_every_problem_of_a_study_comes_as_data(umbilical, study):
@@ -83,7 +119,9 @@ def test_show_reads_studies_and_their_results(umbilical, study, result):
     assert umbilical("show", "fault-map", "--json").document()["study"]["name"] == "fault-map"
     shown = umbilical("show", result, "--metric", "mid_rms", "--against", "proposed")
     assert "mid_rms" in shown.out
-    assert "against 'proposed'" in shown.out
+    assert "against 'proposed', draw by draw" in shown.out
+    assert "difference [m]" in shown.out
+    assert shown.out.count(" to ") >= 6  # median, quantile and comparison of an arm have their intervals
     assert umbilical("show", result, "--metric", "mid").code == 2
     assert umbilical("show", result, "--against", "nobody").code == 2
     assert umbilical("show", "paper", "--metric", "mid_rms").code == 2
@@ -95,6 +133,15 @@ def test_plot_draws_studies(umbilical, result, tmp_path, kind):
     target = tmp_path / f"{kind}.png"
     assert umbilical("plot", result, "--kind", kind, "--metric", "tip_rms", "--out", target).code == 0
     assert target.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_map_is_of_what_one_asks_for(umbilical, result, tmp_path):
+    picture = ["--out", tmp_path / "a.png", "--force"]
+    asked = ["plot", result, "--kind", "map", "--x", "fault.kind", "--y", "fault.motor", "--arm", "proposed"]
+    assert umbilical(*asked, *picture).code == 0
+    assert "is not drawn" in umbilical("plot", result, "--kind", "map", "--x", "fault.knd", *picture).err
+    assert "there are the arms" in umbilical("plot", result, "--kind", "map", "--arm", "P", *picture).err
+    assert "only for --kind map" in umbilical("plot", result, "--x", "fault.kind", *picture).err
 
 
 def test_plot_tells_runs_from_studies(umbilical, result, stored, tmp_path):
@@ -122,8 +169,22 @@ def test_tune_ends_with_a_scenario_to_run(umbilical, tmp_path):
     document = done.document()
     assert document["front"]
     assert json.loads((tmp_path / "out" / "tuning.json").read_text())["trials"] == document["trials"]
-    assert umbilical("run", tmp_path / "out" / "tuned.toml").code == 0
-    again = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--resume")
+    assert umbilical("run", tmp_path / "out" / "tuned-1.toml").code == 0
+    assert document["broken"].keys() == {"admitted", "certificate", "completes"}
+    assert len(list((tmp_path / "out").glob("tuned-*.toml"))) == len(document["front"])
+    picture = ["--plot", tmp_path / "front.png"]
+    again = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--resume", *picture)
+    assert (tmp_path / "front.png").read_bytes().startswith(b"\x89PNG")
     assert "no other trial beats these" in again.out
     assert umbilical("tune", "fault-map", "--out", tmp_path / "none").code == 2
     assert not (tmp_path / "none").exists()
+
+
+def test_a_search_that_finds_nothing_says_what_was_broken(umbilical, tmp_path):
+    small = ["scenario.duration=0.3", "scenario.grid.elements=8", "members=2", "tuning.trials=2"]
+    small += ["tuning.gains.1.key=control.law.damping_gain", "tuning.gains.1.low=6e5", "tuning.gains.1.high=1e6"]
+    changes = [word for change in small for word in ("--set", change)]
+    done = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out")
+    assert done.code == 7
+    assert "admitted 2" in done.out
+    assert "none is left to choose" in done.out

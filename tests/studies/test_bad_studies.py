@@ -7,8 +7,18 @@ import pytest
 from tests.support.studies import small_study
 from umbilical.errors import FileError, ScenarioError
 from umbilical.studies.load import load_study
+from umbilical.studies.members import Draws
 
 UNIFORM = {"kind": "uniform", "low": 0.1, "high": 0.2}
+
+
+def tuning(key):
+    """A search over one gain of the arm PD."""
+    return {
+        "arm": "PD",
+        "gains": [{"key": key, "low": 1.0, "high": 2.0}],
+        "objectives": [{"metric": "tip_peak"}],
+    }
 
 
 @pytest.mark.parametrize(
@@ -39,6 +49,20 @@ UNIFORM = {"kind": "uniform", "low": 0.1, "high": 0.2}
         ({"colour": "red"}, "colour"),
         ({"scenario.payload.mass": -1.0}, "scenario.payload.mass"),
         ({"scenario.duration": 0.0015}, "duration"),
+        ({"name": "../above"}, "name"),
+        ({"name": ".."}, "name"),
+        ({"factors.1.key": "seed", "factors.1.relative": False}, "seed"),
+        ({"factors.1.key": "faults.1.start", "factors.1.relative": False}, "faults.1.start"),
+        ({"factors.1.distribution.step": 3.0}, "payload.mass"),
+        ({"arms.2.changes": {"payload": {"mass": 3.0}}}, "arms.2.changes"),
+        ({"arms.2.changes": {"faults.1.start": 3.0}}, "arms.2.changes"),
+        ({"factors.1.key": "control.law.slope_gain", "factors.1.relative": False}, "arms.1: control.law.slope_gain"),
+        ({"factors.1.key": "control.law.velocity_gain", "factors.1.relative": False}, "arms.2: control.law.velocity_"),
+        ({"limits": {"grid_loss": 1.0}}, "limits.grid_loss"),
+        ({"trajectories.metric": "energy_balance_residual"}, "trajectories.metric"),
+        ({"tuning": tuning("payload.mass")}, "tuning.gains payload.mass"),
+        ({"tuning": tuning("payload")}, "tuning.gains payload"),
+        ({"tuning": tuning("control.law.slope_gain")}, "tuning.gains control.law.slope_gain"),
     ],
 )
 def test_one_problem_is_named(changes, key):
@@ -49,10 +73,43 @@ def test_one_problem_is_named(changes, key):
     assert data == small_study().to_dict()
 
 
-def test_all_problems_come_at_once():
+def test_all_problems_come_at_once_and_each_once():
+    """Of single fields, across fields, and of what the arms and the draws make of the scenario."""
     with pytest.raises(ScenarioError) as refused:
-        small_study(arms__2__name="PD", limits={"x": 1.0}, factors__1__distribution__low=9.0)
-    assert {"arms", "limits.x", "payload.mass"} <= {problem.key for problem in refused.value.problems}
+        small_study(
+            members=0,
+            factors__2__key="cable.mass",
+            factors__2__relative=False,
+            factors__3__distribution__kind="gamma",
+            arms__1__name="",
+            arms__2__changes={"control.law.slop_gain": 1.0},
+            limits={"x": 1.0},
+            factors__1__distribution__low=9.0,
+        )
+    keys = [problem.key for problem in refused.value.problems]
+    fields = ["arms.1.name", "factors.3.distribution.kind", "members"]
+    assert sorted(keys) == sorted([*fields, "arms.2: control.law.slop_gain", "cable.mass", "limits.x", "payload.mass"])
+
+
+def test_a_bound_has_its_unit():
+    with pytest.raises(ScenarioError, match=r"payload\.mass = 9 to 1\.2 kg"):
+        small_study(factors__1__distribution__low=9.0)
+
+
+def test_more_combinations_than_can_be_counted():
+    grid = {"kind": "grid", "low": 0.9, "high": 1.1, "count": 10_000}
+    keys = [f"environment.payload_force.{k}.amplitude" for k in (2, 3, 4)] + ["payload.mass", "cable.line_density"]
+    factors = [{"key": key, "relative": True, "distribution": grid} for key in keys]
+    with pytest.raises(ScenarioError, match=r"some 10\^20 combinations"):
+        small_study(design="grid", campaigns=[], factors=factors)
+
+
+def test_a_list_of_the_study_can_be_drawn_from():
+    force = [{"kind": "constant", "value": 50.0}]
+    factor = {"key": "environment.payload_force.1.value", "relative": True, "distribution": UNIFORM}
+    study = small_study(changes={"environment.payload_force": force}, factors=[factor])
+    draws = Draws(study)
+    assert 5.0 <= draws.scenario(draws.member(1), 0).to_dict()["environment"]["payload_force"][0]["value"] <= 10.0
 
 
 @pytest.mark.parametrize("text", ["", "members = 3", 'scenario = "papr"', "scenario = 3", "scenario = ["])

@@ -34,9 +34,16 @@ def test_every_single_value_is_equally_likely():
     assert [draw(Grid(kind="grid", low=0.0, high=1.0, count=3), share) for share in (0.1, 0.5, 0.9)] == [0.0, 0.5, 1.0]
 
 
-def test_a_step_rounds():
-    values = {draw(Uniform(kind="uniform", low=0.0, high=1.0, step=0.25), share) for share in SHARES}
-    assert values == {0.0, 0.25, 0.5, 0.75, 1.0}
+@pytest.mark.parametrize(
+    ("low", "high", "step", "expected"),
+    [
+        (0.0, 1.0, 0.25, {0.0, 0.25, 0.5, 0.75, 1.0}),
+        (450.0, 700.0, 100.0, {450.0, 550.0, 650.0}),
+        (0.1, 0.4, 0.1, {0.1, 0.2, 0.3, 0.4}),
+    ],
+)
+def test_steps_begin_at_the_lowest_value_and_stay_below_the_highest(low, high, step, expected):
+    assert {draw(Uniform(kind="uniform", low=low, high=high, step=step), share) for share in SHARES} == expected
 
 
 @pytest.mark.parametrize("method", ["random", "latin", "sobol", "saltelli", "morris"])

@@ -9,6 +9,7 @@ import xarray
 from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult
+from umbilical.studies.rows import STATUSES
 from umbilical.studies.sensitivity import rank
 
 UNIFORM = {"kind": "uniform", "low": 0.5, "high": 1.5}
@@ -60,6 +61,27 @@ def test_morris_effects_are_the_slopes():
     found = {i.name: i for i in rank(made("morris", additive), "tip_peak", "one")}
     assert [found[key].first for key in KEYS] == pytest.approx([4.0, 2.0, 1.0])
     assert found[KEYS[0]].total == pytest.approx(0.0, abs=1e-9)
+
+
+def refused(result: StudyResult, count: int) -> StudyResult:
+    """The same with the first members refused, whose values would be the largest."""
+    result.data["status"][:count] = STATUSES.index("REFUSED")
+    return result
+
+
+def test_refused_members_are_left_out():
+    found = rank(refused(made("sobol", additive), 60), "tip_peak", "one")
+    assert [i.first for i in found] == pytest.approx([16 / 21, 4 / 21, 1 / 21], abs=0.1)
+
+
+@pytest.mark.parametrize("design", ["grid", "saltelli", "morris"])
+def test_a_design_that_needs_all_members_is_not_judged_from_some(design):
+    with pytest.raises(ValueError, match="2 members have no tip_peak"):
+        rank(refused(made(design, additive), 2), "tip_peak", "one")
+
+
+def test_a_grid_is_exact():
+    assert all(np.isnan(i.first_error) for i in rank(made("grid", additive), "tip_peak", "one"))
 
 
 def test_too_few_members_are_refused():

@@ -80,11 +80,41 @@ def test_what_is_there_is_neither_overwritten_nor_mixed(whole, tmp_path):
     assert [entry.name for entry in tmp_path.iterdir()] == ["thesis.txt"]
 
 
-def test_force_begins_anew(tmp_path):
-    sweep(small_study(members=2), tmp_path / "out")
+@pytest.mark.parametrize("force", [False, True])
+@pytest.mark.parametrize(
+    "mine",
+    [
+        {"journal.txt": "dear diary", "runs/data.txt": "mine"},
+        {"manifest.json": '{"name": "of another program"}', "runs/member-1-arm-1.nc": "mine"},
+        {"manifest.json": "not JSON", "study.nc": "mine"},
+        {"lock": "a key"},
+        {"deep/.umbilical-1.part": "mine"},
+    ],
+)
+def test_files_of_others_are_left_alone_whatever_their_names(tmp_path, mine, force):
+    for name, text in mine.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    with pytest.raises(OutputError, match="and no study"):
+        sweep(small_study(), tmp_path, force=force)
+    assert {name: (tmp_path / name).read_text() for name in mine} == mine
+    assert sum(entry.is_file() for entry in tmp_path.rglob("*")) == len(mine)
+
+
+def test_force_begins_anew_and_removes_what_is_ours_only(tmp_path):
+    sweep(small_study(members=2, trajectories={"keep": "all"}), tmp_path / "out")
+    (tmp_path / "out" / "runs" / "notes.txt").write_text("mine")
     found = sweep(small_study(members=3), tmp_path / "out", force=True)
     assert found.data.sizes["member"] == 3
     assert len(list(entries(tmp_path / "out" / "journal.txt"))) == 3
+    assert [entry.name for entry in (tmp_path / "out" / "runs").iterdir()] == ["notes.txt"]
+
+
+def test_what_a_killed_process_left_is_ours(tmp_path):
+    (tmp_path / "lock").touch()
+    (tmp_path / ".umbilical-0.part").write_text("half a manifest")
+    sweep(small_study(members=2), tmp_path)
+    assert not (tmp_path / ".umbilical-0.part").exists()
 
 
 def test_two_processes_never_share_a_folder(tmp_path):

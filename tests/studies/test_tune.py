@@ -15,6 +15,7 @@ from umbilical.studies.load import load_study
 from umbilical.studies.search import Verdict, choose, front
 from umbilical.studies.study import Study
 
+GAIN = [{"key": "control.disturbance_observer.gain", "low": 1.0, "high": 20.0}]
 SEARCHES = pytest.mark.parametrize("name", ["optuna", "scipy"])
 TUNING = {
     "arm": "PD",
@@ -94,7 +95,7 @@ def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, name, monke
     monkeypatch.setattr(tune, "judge", lambda *a: calls.append(a) or judge(*a))
     tune.tune(study, tmp_path / "cut", optimiser=name, resume=True)
     assert 0 < len(calls) < 12
-    for file in ("tuning.json", "tuned.toml"):
+    for file in ("tuning.json", "tuned-1.toml"):
         assert (tmp_path / "cut" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()
 
 
@@ -118,16 +119,36 @@ def test_gains_that_are_refused_are_no_answer():
     found = tune.tune(tuned_study(gains=gains, trials=20), engine=engines.threads(2))
     refused = [trial for trial in found.trials if trial.verdict.violations[0] > 0.0]
     assert refused
+    assert found.broken["admitted"] == len(refused)
     assert all(trial.gains["control.law.velocity_gain"] >= 5e5 for trial in refused)
     assert found.front[0].gains["control.law.velocity_gain"] < 5e5
 
 
-def test_the_patch_is_a_scenario_with_the_gains(tmp_path):
-    study = load_study("gain-tuning")
-    (tmp_path / "tuned.toml").write_text(tune.to_patch(study, {"control.law.slope_gain": 2.5}))
-    assert 'extends = "paper"' in (tmp_path / "tuned.toml").read_text()
-    expected = load("paper", {"control.law.slope_gain": 2.5, "name": "paper-tuned"})
-    assert load(tmp_path / "tuned.toml") == expected
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"control.law.kind": "boundary", "control.law.damping_gain": 5000.0, "control.law.rates": "observer"},
+        {"control.allocation.method": "adaptive", "control.allocation.rates": [0.1, 100.0, 100.0]}
+        | {"control.allocation.leak": 1e-3, "control.allocation.initial": [0.25, 0.0, 0.0]},
+        {"control.slope_observer": None, "control.law.kind": "pd", "control.law.velocity": "observer"}
+        | {"control.law.position_gain": 100.0, "control.law.velocity_gain": 10.0},
+        {"motors.1.inertia": 0.6},
+    ],
+)
+def test_the_patch_is_the_scenario_that_was_tuned(tmp_path, changes):
+    """The study's own changes are in it, and those of the arm."""
+    study = load_study("gain-tuning").replace({"arms.1.changes": changes, "tuning.gains": GAIN})
+    (tmp_path / "tuned.toml").write_text(tune.to_patch(study, {"control.disturbance_observer.gain": 2.5}))
+    assert study.changes
+    expected = {**study.changes, **changes, "control.disturbance_observer.gain": 2.5, "name": "paper-tuned"}
+    assert load(tmp_path / "tuned.toml") == load("paper", expected)
+
+
+def test_a_patch_of_a_preset_says_only_what_differs(tmp_path):
+    text = tune.to_patch(load_study("gain-tuning"), {"control.law.slope_gain": 2.5})
+    assert 'extends = "paper"' in text
+    assert "line_density" not in text
 
 
 def test_a_patch_of_a_list_and_of_a_changed_scenario(tmp_path):

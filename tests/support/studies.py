@@ -19,5 +19,5 @@ SMALL = {
 def small_study(**changes: Any) -> Study:
     """The robustness study in small, with PD and the proposed law; changes with ``__`` for the dot of a key."""
     study = load_study("paper-robustness")
-    arms = [arm.model_dump() for arm in study.arms[:2]]
+    arms = [arm.model_dump() for arm in study.arms if arm.name in ("PD", "proposed")]
     return study.replace({**SMALL, "arms": arms, **{key.replace("__", "."): value for key, value in changes.items()}})

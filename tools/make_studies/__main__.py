@@ -1,84 +1,108 @@
 """Run the studies that come along, draw them, and write what they found into docs/studies.md.
 
 `.venv/bin/python tools/make_studies [FOLDER]` runs them in FOLDER (out/studies if left out), or takes the results that
-are there; it may be stopped and started again. About five minutes on two cores.
+are there; it may be stopped and started again. About ten minutes on two cores.
 """
 
 from __future__ import annotations
 
-import re
 import sys
 from pathlib import Path
 
-from umbilical.analysis.paired import Estimate, compare, exceedance, quantile
-from umbilical.plots import plot_study, save_figure
+import numpy as np
+from robust import FAULT, PROPOSED, STIFF, faults, headline, loops, margins, table, versus
+from words import between, millimetres, paragraph, rows_of
+
+from umbilical.plots import as_figure, plot_study, plot_tuning, save_figure
+from umbilical.plots.tuning import label_of
+from umbilical.studies import tune
+from umbilical.studies.engines import default_jobs, threads
 from umbilical.studies.load import load_study
 from umbilical.studies.results import StudyResult, open_study
+from umbilical.studies.study import Study
 from umbilical.studies.sweep import sweep
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "studies.md"
-STUDIES = {"paper-robustness": "tip_peak", "fault-map": "tip_peak_after_fault"}
-"""Studies, and the metric that is drawn."""
-TOLD = ("tip_peak", "tip_rms", "mid_rms", "effort_rms")
+IMAGES = ROOT / "docs" / "img"
+NOISE = {"sensors.tip_displacement.noise": 1e-3, "sensors.tip_slope.noise": 1e-5}
+"""A millimetre, and a hundredth of a milliradian: assumed, of a good positioning system and inclinometer."""
+NOISY_MEMBERS = 64
+SHOWN = 5
+"""Points of the front that the page shows."""
+PAPERS = {"control.law.slope_gain": 0.01, "control.disturbance_observer.gain": 5.0}
+"""Gains of the preset 'paper', to compare the tuned ones with."""
 
 
 def main() -> None:
     """Studies, pictures, page."""
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "out" / "studies"
+    robust, mapped = (found(load_study(name), folder) for name in ("paper-robustness", "fault-map"))
+    noisy, gains = found(with_noise(robust.study), folder), load_study("gain-tuning")
+    tuned = tune.tune(gains, place(gains, folder), resume=True)
+    save_figure(plot_study(robust, "tip_peak"), IMAGES / "paper-robustness.png", force=True)
+    save_figure(plot_study(mapped, "tip_peak_after_fault"), IMAGES / "fault-map.png", force=True)
+    save_figure(as_figure(plot_tuning(tuned)), IMAGES / "gain-tuning.png", force=True)
+    blocks = {
+        "headline": headline(robust),
+        "found": table(robust),
+        "versus": versus(robust),
+        "loops": loops(robust, noisy),
+        "faults": faults(robust),
+        "map": map_in_words(mapped),
+        "tuned": front(tuned),
+    }
     text = PAGE.read_text(encoding="utf-8")
-    for name, metric in STUDIES.items():
-        result = found(name, folder / name)
-        save_figure(plot_study(result, metric), ROOT / "docs" / "img" / f"{name}.png", force=True)
-        if name == "paper-robustness":
-            text = between(text, "found", table(result))
-            text = between(text, "versus", against(result))
+    for name, content in blocks.items():
+        text = between(text, name, content)
     PAGE.write_text(text, encoding="utf-8")
 
 
-def found(name: str, folder: Path) -> StudyResult:
+def found(study: Study, folder: Path) -> StudyResult:
     """The result that is there, if it is of this very study, else a new one."""
-    study, stored = load_study(name), folder / "study.nc"
-    if stored.exists() and (result := open_study(stored)).study == study:
-        return result
-    return sweep(study, folder, resume=True)
+    stored = place(study, folder) / "study.nc"
+    return open_study(stored) if stored.exists() else sweep(study, stored.parent, resume=True)
 
 
-def table(result: StudyResult) -> str:
-    """Endings, medians, 95 % quantiles and the limit of every arm."""
-    limit = result.study.limits["tip_peak"]
-    rows = [["arm", "diverged", f"`tip_peak` > {limit:g} m", *(f"`{name}`" for name in TOLD)]]
-    rows += [["---"] * len(rows[0])]
-    for k, arm in enumerate(result.arms):
-        lost = int((result["status"].values[:, k] != 0).sum())
-        values = [result.values(name, arm) for name in TOLD]
-        cells = [f"{quantile(v, 0.5).value:.3g} ({quantile(v, 0.95).value:.3g})" for v in values]
-        rows.append([arm, str(lost), percent(exceedance(values[0], limit)), *cells])
-    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+def place(study: Study, folder: Path) -> Path:
+    """Each version of a study has a folder of its own."""
+    return folder / f"{study.name}-{study.hash[:12]}"
 
 
-def against(result: StudyResult) -> str:
-    """Each arm against the one before, on the same draws."""
-    rows = [["arm", "against", *(f"`{name}`" for name in TOLD)], ["---"] * (2 + len(TOLD))]
-    for other, arm in zip(result.arms[:-1], result.arms[1:], strict=True):
-        cells = [compare(result.values(name, arm), result.values(name, other)) for name in TOLD]
-        told = (
-            f"{c.ratio.value:.3g} ({c.ratio.low:.3g} to {c.ratio.high:.3g}); {100 * c.better.value:.3g} %"
-            for c in cells
-        )
-        rows.append([arm, other, *told])
-    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
+def with_noise(study: Study) -> Study:
+    """The laws that see the same, with noise on what they see, on fewer draws."""
+    arms = [arm.model_dump() for arm in study.arms if arm.name in (STIFF, PROPOSED)]
+    noisy = [{**arm, "changes": {**arm["changes"], **NOISE}} for arm in arms]
+    return study.replace({"name": "noise", "members": NOISY_MEMBERS, "arms": noisy})
 
 
-def percent(share: Estimate) -> str:
-    """A share with its interval."""
-    return f"{100 * share.value:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g})"
+def map_in_words(result: StudyResult) -> str:
+    """For each motor where fault control is ahead, and how far the ROV moves at worst."""
+    sentences, motors = [], result["fault.motor"].values
+    for motor in np.unique(motors):
+        without, with_it = (result.values("tip_peak_after_fault", arm)[motors == motor] for arm in (PROPOSED, FAULT))
+        ahead, most = np.count_nonzero(with_it < without), [millimetres(v.max()) for v in (with_it, without)]
+        sentences += [
+            f"Of the {without.size} faults of motor {motor} fault control is ahead in {ahead}; at worst the ROV moves",
+            f"{most[0]} with it and {most[1]} without.",
+        ]
+    return paragraph(*sentences)
 
 
-def between(text: str, name: str, content: str) -> str:
-    """The page with new content between the marks of a name."""
-    marks = rf"(<!-- {name}: written by tools/make_studies -->\n).*?(<!-- {name}: end -->)"
-    return re.sub(marks, lambda m: f"{m[1]}{content}\n{m[2]}", text, flags=re.DOTALL)
+def front(searched: tune.Tuned) -> str:
+    """Some of the front, the paper's gains on the same draws, and what the linearised sampled loop says of each."""
+    names = [label_of(objective) for objective in tune.tuning_of(searched.study).objectives]
+    rows = [["", *(f"`{key}`" for key in PAPERS), *names, "thrust up to", "phase", "lag"]]
+    papers = tune.Trial(PAPERS, tune.judge(searched.study, PAPERS, {}, threads(default_jobs())))
+    shown = np.unique(np.linspace(0, len(searched.front) - 1, SHOWN).round().astype(int))
+    told_of = [(f"`{searched.files[k]}`", searched.front[k]) for k in shown]
+    for label, trial in (*told_of, ("the paper's gains", papers)):
+        numbers = [*(trial.gains[key] for key in PAPERS), *trial.verdict.values]
+        tuned = searched.study.scenario.replace({**searched.study.changes, **trial.gains})
+        rows.append([label, *(f"{number:.3g}" for number in numbers), *margins(tuned)])
+    broken = ", ".join(f"{name} {count}" for name, count in searched.broken.items())
+    head = f"{len(searched.trials)} trials by {searched.optimiser}; conditions broken: {broken}."
+    return f"{head} Of the {len(searched.front)} points of the front {len(shown)} are shown:\n\n{rows_of(rows)}"
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ _ARM = [{"name": "proposed"}]
 
 
 def study_rows(members: int, plain: float) -> list[Row]:
-    """Measure with some members, told for a thousand.
+    """Measure with some members, told for a thousand, and with ten times fewer each time, down to ten.
 
     Args:
         members: how many are run on one thread, and again on two.
@@ -33,8 +33,19 @@ def study_rows(members: int, plain: float) -> list[Row]:
         Row("1000 members, 2 threads", two * THOUSAND / members, "s", 50.0 * members / two, scaled),
         Row("  one member, 1 thread", 1e3 * one / members, "ms", 50.0 * members / one, "draws, checks, run, row"),
         Row("  speed-up from 1 to 2 threads", one / two, "x"),
+        *(_cost(count, _seconds(_one_arm(count), 2)) for count in _fewer(members)),
+        _cost(members, two),
         Row("1000 members, numpy + scipy", plain * THOUSAND, "s", 50.0 / plain, "one core, scaled"),
     ]
+
+
+def _fewer(members: int) -> list[int]:
+    """Sizes below: does a member cost the same whatever their number?"""
+    return [count for count in (10, 100, 1000) if count < members]
+
+
+def _cost(members: int, seconds: float) -> Row:
+    return Row(f"  each of {members} members, 2 threads", 1e3 * seconds / members, "ms", 50.0 * members / seconds)
 
 
 def memory_row(members: int) -> Row:

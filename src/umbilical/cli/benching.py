@@ -24,6 +24,7 @@ def bench(
     examples
       umbilical bench
       umbilical bench --repeat 51 --cold --json
+      umbilical bench --members 10000     # what each costs of 10, 100, 1000 and 10000, and memory: some ten minutes
     """
     from umbilical.bench import measure_all
     from umbilical.cli.progress import announce_compilation, bar

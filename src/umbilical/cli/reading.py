@@ -62,11 +62,12 @@ def _show_study(
         return
     result = open_study(file)
     if unknown := [name for name in (*metrics, *filter(None, [sensitivity])) if name not in result.metrics]:
-        raise BadParameter(f"{unknown[0]} is not there; there are {', '.join(result.metrics)}", param_hint="--metric")
+        there = f"there are {', '.join(result.metrics)}" if result.metrics else study_report.NONE_COMPLETED
+        raise BadParameter(f"{unknown[0]} is not there; {there}", param_hint="--metric")
     if against is not None and against not in result.arms:
         raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
     if as_json:
-        say_json(study_report.study_document(result, {"result": file}, against))
+        say_json(study_report.study_document(result, {"result": file}, against, metrics, sensitivity))
     else:
         parts = [study_report.report(result, metrics, against)]
         parts += [study_report.sensitivity_text(result, sensitivity)] if sensitivity else []

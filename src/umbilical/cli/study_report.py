@@ -6,31 +6,37 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umbilical.analysis.paired import Estimate, compare, exceedance, quantile
+from umbilical.analysis.paired import Comparison, Estimate
 from umbilical.cli.speech import shown_unit, table
 from umbilical.quantities import METRICS
+from umbilical.studies import statistics
 from umbilical.studies.rows import STATUSES
+from umbilical.studies.statistics import percent, told
 from umbilical.studies.sweep import worst
 
 if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult
+    from umbilical.studies.sensitivity import Influence
     from umbilical.studies.study import Study
 
 USUAL = ("tip_peak", "tip_rms", "mid_rms", "effort_rms")
 """Metrics that are shown where none is named."""
+NONE_COMPLETED = "no member completed in any arm: there is nothing to tell"
+_SHARES = (0.5, 0.95)
 _WORST = 3
+_REASONS = 3
 
 
 def report(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
     """Endings, distributions, comparisons with an arm (the first), limits and the worst members of each arm."""
-    study = result.study
+    study, chosen = result.study, metrics or _usual(result)
     size = result.data.sizes["member"]
     parts = [f"{study.name}: {size} members in {len(result.arms)} arms, {study.hash[:12]}", study.description]
-    parts.append(_endings(result))
-    for metric in metrics or _usual(result):
-        parts.append(_distribution(result, metric, against or result.arms[0]))
+    parts += [_endings(result), _reasons(result)]
+    for metric in chosen:
+        parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
     parts += [_exceedances(result)] if study.limits else []
-    parts.append(_worst(result, (metrics or _usual(result))[0]))
+    parts += [_worst(result, chosen[0]), statistics.caveat(study.design)] if chosen else [NONE_COMPLETED]
     return "\n\n".join(filter(None, parts))
 
 
@@ -40,10 +46,8 @@ def _usual(result: StudyResult) -> tuple[str, ...]:
 
 def endings(result: StudyResult) -> dict[str, dict[str, int]]:
     """How many members ended how, by arm."""
-    status = result["status"].values
     return {
-        arm: {name: int(np.count_nonzero(status[:, k] == code)) for code, name in enumerate(STATUSES)}
-        for k, arm in enumerate(result.arms)
+        arm: {status: int(np.count_nonzero(result.ended(arm, status))) for status in STATUSES} for arm in result.arms
     }
 
 
@@ -53,39 +57,41 @@ def _endings(result: StudyResult) -> str:
     return table(rows, right=range(1, len(STATUSES) + 1))
 
 
-def _distribution(result: StudyResult, metric: str, first: str) -> str:
-    """Median, 95 % quantile, and the comparison with one arm."""
+def _reasons(result: StudyResult) -> str:
+    """The commonest reasons of what did not complete."""
+    rows = [
+        (arm, f"{reason.count} {reason.status}", f"e.g. {reason.example}")
+        for arm in result.arms
+        for reason in statistics.reasons(result, arm)[:_REASONS]
+    ]
+    return table([("why not all completed", "", ""), *rows]) if rows else ""
+
+
+def _distribution(result: StudyResult, metric: str) -> str:
+    """Median and 95 % quantile of each arm."""
     word = METRICS[metric]
-    head = (f"{metric} [{shown_unit(word.unit) or '1'}]", "median", "95 %", "ratio", "(interval)", "better in")
-    rows: list[tuple[str, ...]] = [head]
+    rows = [(f"{metric} [{shown_unit(word.unit) or '1'}]", "median", "95 % quantile")]
+    rows += [(arm, *(told(statistics.at(result, metric, arm, share)) for share in _SHARES)) for arm in result.arms]
+    return f"{table(rows)}\n  {word.meaning}"
+
+
+def _comparison(result: StudyResult, metric: str, first: str) -> str:
+    """Every other arm against one, on the same draws."""
+    unit = shown_unit(METRICS[metric].unit) or "1"
+    rows = [(f"against '{first}', draw by draw", "ratio", f"difference [{unit}]", "smaller in")]
     for arm in result.arms:
-        values = result.values(metric, arm)
-        found = [f"{quantile(values, share).value:.4g}" for share in (0.5, 0.95)]
-        rows.append((arm, *found, *(_against(result, metric, arm, first) if arm != first else ("", "", ""))))
-    note = f"  {word.meaning}; ratio and better: against '{first}' on the same draws" if len(result.arms) > 1 else ""
-    return "\n".join(filter(None, [table(rows, right=range(1, 6)), note]))
-
-
-def _against(result: StudyResult, metric: str, arm: str, other: str) -> tuple[str, str, str]:
-    found = compare(result.values(metric, arm), result.values(metric, other))
-    return f"{found.ratio.value:.4g}", f"({found.ratio.low:.4g} to {found.ratio.high:.4g})", _percent(found.better)
+        if arm != first:
+            found = statistics.against(result, metric, arm, first)
+            rows.append((arm, told(found.ratio), told(found.difference), percent(found.better)))
+    return table(rows) if len(rows) > 1 else ""
 
 
 def _exceedances(result: StudyResult) -> str:
-    rows = [("probability of", *(f"{name} > {limit:g}" for name, limit in result.study.limits.items()))]
+    limits = result.study.limits.items()
+    rows = [("probability of", *(f"{name} > {limit:g}" for name, limit in limits))]
     for arm in result.arms:
-        found = [exceedance(result.values(name, arm), limit) for name, limit in _limits(result)]
-        rows.append((arm, *(_percent(estimate) for estimate in found)))
+        rows.append((arm, *(percent(statistics.beyond(result, name, arm, limit)) for name, limit in limits)))
     return table(rows, right=range(1, len(rows[0])))
-
-
-def _limits(result: StudyResult) -> list[tuple[str, float]]:
-    return [(name, limit) for name, limit in result.study.limits.items() if name in result.metrics]
-
-
-def _percent(estimate: Estimate) -> str:
-    low, high = 100 * estimate.low, 100 * estimate.high
-    return f"{100 * estimate.value:.3g} % ({low:.3g} to {high:.3g})"
 
 
 def _worst(result: StudyResult, metric: str) -> str:
@@ -103,19 +109,28 @@ def sensitivity_text(result: StudyResult, metric: str) -> str:
     Raises:
         MissingPartnerError: SALib is not installed.
     """
-    from umbilical.studies.sensitivity import rank
-
     parts = []
-    for arm in result.arms:
-        try:
-            found = rank(result, metric, arm)
-        except ValueError as error:
-            parts.append(f"{arm}: {error}")
+    for arm, found in _influences(result, metric).items():
+        if isinstance(found, str):
+            parts.append(f"{arm}: {found}")
             continue
         rows = [(f"{metric}, {arm}", "first", "+-", "total or deviation")]
-        rows += [(i.name, f"{i.first:.3g}", f"{i.first_error:.2g}", _or_dash(i.total)) for i in found]
+        rows += [(i.name, *(_or_dash(value) for value in i[1:])) for i in found]
         parts.append(table(rows, right=(1, 2, 3)))
     return "\n\n".join(parts)
+
+
+def _influences(result: StudyResult, metric: str) -> dict[str, list[Influence] | str]:
+    """By arm what matters, or why nobody can tell."""
+    from umbilical.studies.sensitivity import rank
+
+    found: dict[str, list[Influence] | str] = {}
+    for arm in result.arms:
+        try:
+            found[arm] = rank(result, metric, arm)
+        except ValueError as error:
+            found[arm] = str(error)
+    return found
 
 
 def _or_dash(value: float) -> str:
@@ -123,35 +138,60 @@ def _or_dash(value: float) -> str:
 
 
 def study_document(
-    result: StudyResult, files: dict[str, str] | None = None, against: str | None = None
+    result: StudyResult,
+    files: dict[str, str] | None = None,
+    against: str | None = None,
+    metrics: tuple[str, ...] = (),
+    sensitivity: str | None = None,
 ) -> dict[str, Any]:
     """A study's result as ``--json`` prints it; comparisons are with an arm, the first if none is named."""
-    first = against or result.arms[0]
-    return {
+    first, limits = against or result.arms[0], result.study.limits.items()
+    document = {
         "study": result.study.name,
         "study_hash": result.study.hash,
         "members": result.data.sizes["member"],
         "endings": endings(result),
+        "reasons": {arm: [r._asdict() for r in statistics.reasons(result, arm)[:_REASONS]] for arm in result.arms},
         "metrics": {
-            metric: {arm: _numbers(result, metric, arm, first) for arm in result.arms} for metric in result.metrics
+            metric: {arm: _numbers(result, metric, arm, first) for arm in result.arms}
+            for metric in metrics or result.metrics
         },
         "against": first,
         "limits": {
-            name: {arm: exceedance(result.values(name, arm), limit)._asdict() for arm in result.arms}
-            for name, limit in _limits(result)
+            name: {arm: _estimate(statistics.beyond(result, name, arm, limit)) for arm in result.arms}
+            for name, limit in limits
         },
+        "intervals": statistics.caveat(result.study.design),
         "files": dict(files or {}),
+    }
+    return document | ({"sensitivity": _sensitivity(result, sensitivity)} if sensitivity else {})
+
+
+def _sensitivity(result: StudyResult, metric: str) -> dict[str, Any]:
+    arms = _influences(result, metric)
+    return {
+        "metric": metric,
+        "arms": {
+            a: {"reason": f} if isinstance(f, str) else {"draws": [i._asdict() for i in f]} for a, f in arms.items()
+        },
     }
 
 
 def _numbers(result: StudyResult, metric: str, arm: str, first: str) -> dict[str, Any]:
-    values = result.values(metric, arm)
-    found: dict[str, Any] = {name: quantile(values, s)._asdict() for name, s in (("median", 0.5), ("q95", 0.95))}
+    names = zip(("median", "q95"), _SHARES, strict=True)
+    found: dict[str, Any] = {name: _estimate(statistics.at(result, metric, arm, share)) for name, share in names}
     found["worst"] = worst(result, metric, arm, _WORST)
     if arm != first:
-        against = compare(values, result.values(metric, first))
-        found["compared"] = {"ratio": against.ratio._asdict(), "better": against.better._asdict()}
+        members, *compared = statistics.against(result, metric, arm, first)
+        told_apart = zip(Comparison._fields[1:], map(_estimate, compared), strict=True)
+        found["compared"] = {"members": members, **dict(told_apart)}
     return found
+
+
+def _estimate(found: Estimate) -> dict[str, Any]:
+    """An estimate as data; its status says what null stands for: larger than any number, or nothing at all."""
+    status = "none" if np.isnan(found.value) else "infinite" if np.isinf(found.value) else "finite"
+    return {**found._asdict(), "status": status}
 
 
 def describe(study: Study) -> str:

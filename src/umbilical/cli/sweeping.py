@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.speech import say, say_json, tell
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
 
 if TYPE_CHECKING:
     from umbilical.studies.engines import Engine
@@ -39,7 +39,8 @@ def sweep(
       umbilical sweep my-study.toml --dask tcp://host:8786 --out far --resume
 
     Killed at any moment it loses at most the members under way; the same command with --resume completes to the same
-    bytes. The result, DIR/study.nc, does not depend on how many worked, nor where.
+    bytes. The result, DIR/study.nc, does not depend on how many worked, nor where. Where not one member completed,
+    the exit code is 7.
     """
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.cli.study_report import report, study_document
@@ -48,11 +49,10 @@ def sweep(
     chosen = load_changed_study(study, changes or [])
     folder = out or Path(chosen.name)
     engine = _engine(chosen, jobs, processes, dask)
-    _announce(chosen)
     announce_compilation()
     try:
         with bar(f"running {chosen.name}") as advance:
-            found = run(chosen, folder, engine=engine, resume=resume, force=force, progress=advance)
+            found = run(chosen, folder, engine=engine, resume=resume, force=force, progress=advance, tell=tell)
     except KeyboardInterrupt:
         tell(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
@@ -61,7 +61,7 @@ def sweep(
         say_json(study_document(found, where))
     else:
         say(f"{report(found)}\n\nresult: {where['result']}")
-    return 0
+    return 0 if found.metrics else DOES_NOT_HOLD
 
 
 def load_changed_study(source: str, changes: list[str]) -> Study:
@@ -89,15 +89,6 @@ def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -
 
         return cluster(dask, count)
     return engines.processes(count) if processes else default_engine(study, count)
-
-
-def _announce(study: Study) -> None:
-    """What will be stored beside the result, before anything starts."""
-    from umbilical.studies.members import Draws
-    from umbilical.studies.sweep import disk_needed
-
-    if size := disk_needed(Draws(study)):
-        tell(f"complete runs ({study.trajectories.keep}): about {size / 1e6:.3g} MB will be stored beside the result")
 
 
 def member(

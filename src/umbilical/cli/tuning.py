@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import say, say_json, table, tell
+from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table, tell
+from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
     from umbilical.studies.tune import Tuned
@@ -27,6 +29,9 @@ def tune(
     jobs: Annotated[
         int | None, Option("--jobs", metavar="N", min=1, max=4096, help="Members at once; all cores.")
     ] = None,
+    picture: Annotated[
+        Path | None, Option("--plot", metavar="FILE", help="Draw the front: a .png, .pdf or .svg.")
+    ] = None,
     resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
     force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
@@ -36,11 +41,12 @@ def tune(
     \b
     examples
       umbilical tune gain-tuning --out tuned
-      umbilical tune gain-tuning --out tuned --resume
-      umbilical run tuned/tuned.toml
+      umbilical tune gain-tuning --out tuned --resume --plot front.png
+      umbilical run tuned/tuned-1.toml
 
     With two objectives the Pareto front is shown: the trials that no other beats in both. DIR/tuning.json has every
-    trial, DIR/tuned.toml a scenario with the gains that are best in the first objective.
+    trial, DIR/tuned-1.toml and so on are scenarios with the gains of the front, the best in the first objective first.
+    Where no gains keep every condition, the exit code is 7.
     """
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.cli.sweeping import load_changed_study
@@ -49,6 +55,8 @@ def tune(
     from umbilical.studies.tune import tune as search
 
     chosen = load_changed_study(study, changes or [])
+    if picture:
+        check_target(picture, PICTURES, force=force or resume)
     folder = out or Path(f"{chosen.name}-tuned")
     engine = default_engine(chosen, jobs or default_jobs())
     announce_compilation()
@@ -61,25 +69,38 @@ def tune(
         tell(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")
         raise
     files = {"trials": str(folder / "tuning.json")}
-    if found.front:
-        files["scenario"] = str(folder / "tuned.toml")
+    files |= {f"scenario {k}": str(folder / name) for k, name in enumerate(found.files, start=1)}
+    if picture and found.front:
+        from umbilical.plots import as_figure, plot_tuning, save_figure
+
+        files["plot"] = str(save_figure(as_figure(plot_tuning(found)), picture, force=force or resume))
     if as_json:
         say_json({**found.document(), "files": files})
     else:
-        say("\n\n".join([_report(found), *(f"{role}: {path}" for role, path in files.items())]))
-    return 0
+        say("\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]))
+    return 0 if found.front else DOES_NOT_HOLD
+
+
+def _shortened(files: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Of many scenarios the first and the last."""
+    scenarios = [role for role in files if role.startswith("scenario")]
+    return [(role, path) for role, path in files.items() if role not in scenarios[1:-1]]
 
 
 def _report(found: Tuned) -> str:
     from umbilical.studies.tune import name_of, tuning_of
 
     tuning = tuning_of(found.study)
-    head = (*(gain.key for gain in tuning.gains), *(name_of(objective) for objective in tuning.objectives))
-    rows = [(*(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values)) for t in found.front]
+    head = ("", *(gain.key for gain in tuning.gains), *(name_of(objective) for objective in tuning.objectives))
+    rows = [
+        (str(k), *(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values))
+        for k, t in enumerate(found.front, start=1)
+    ]
     kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
     text = f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
+    text += "\nbroken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
     if not rows:
-        return f"{text}; none is left to choose"
+        return f"{text}\nnone is left to choose"
     what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
     more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
-    return f"{text} ({', '.join(found.conditions)})\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
+    return f"{text}\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"

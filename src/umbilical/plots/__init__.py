@@ -23,11 +23,12 @@ from umbilical.plots.study import (
     STUDY_PLOTS,
     plot_comparison,
     plot_distribution,
-    plot_map,
     plot_sensitivity,
     plot_study,
 )
+from umbilical.plots.study_map import plot_map
 from umbilical.plots.tip import plot_tip
+from umbilical.plots.tuning import plot_tuning
 
 PLOTS = {
     "overview": plot_overview,
@@ -62,5 +63,6 @@ __all__ = [
     "plot_sensitivity",
     "plot_study",
     "plot_tip",
+    "plot_tuning",
     "save_figure",
 ]

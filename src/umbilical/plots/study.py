@@ -1,28 +1,36 @@
-"""What a study found, as pictures: distributions, paired ratios, maps over two draws, influences."""
+"""What a study found, as pictures: distributions, paired ratios, influences, and a first look."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umbilical.analysis.paired import compare, exceedance
+from umbilical.analysis.paired import Estimate
 from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
+from umbilical.studies.statistics import against, at, beyond, percent, ratios, told
+from umbilical.studies.sweep import worst
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from umbilical.studies.results import StudyResult
+    from umbilical.studies.sensitivity import Influence
 
-USUAL = "tip_peak"
 _SHOWN = 10
+_WORST = 3
 _DECADE = 10.0
 
 
 def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | None = None) -> Axes:
-    """Share of the members in which a metric stays below a value, for each arm; what diverged never does."""
+    """Share of the members in which a metric stays below a value, for each arm; what diverged never does.
+
+    Bars are the intervals of the median and of the 95 % quantile; the legend names the worst members.
+    """
     ax = ax or new_figure(7.0, 4.2).add_subplot()
     spread = []
     for colour, arm in enumerate(result.arms):
@@ -30,9 +38,11 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
         values = np.sort(values[~np.isnan(values)])
         shares = np.arange(1, values.size + 1) / max(values.size, 1)
         finite = np.isfinite(values)
-        style = "--" if colour == len(result.arms) - 1 and len(result.arms) > 1 else "-"
-        named = arm + _beyond(result, metric, arm)
-        ax.step(values[finite], shares[finite], where="post", color=_colour(colour), label=named, linestyle=style)
+        style = {"color": _colour(colour), **_dashes(colour)}
+        named = f"{arm}\n  {_in_words(result, metric, arm)}"
+        ax.step(values[finite], shares[finite], where="post", label=named, **style)
+        for share in (0.5, 0.95):
+            _interval(ax, at(result, metric, arm, share), share, _colour(colour))
         spread += [values[finite]]
     _logarithmic_if_wide(ax, np.concatenate(spread))
     if (limit := result.study.limits.get(metric)) is not None:
@@ -41,12 +51,19 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
     return _finish(ax, f"{result.data.sizes['member']} members")
 
 
-def _beyond(result: StudyResult, metric: str, arm: str) -> str:
-    """How often an arm exceeds the study's limit, with its interval; nothing where there is no limit."""
-    if (limit := result.study.limits.get(metric)) is None:
-        return ""
-    found = exceedance(result.values(metric, arm), limit)
-    return f"\n  beyond {limit:g}: {100 * found.value:.3g} % ({100 * found.low:.3g} to {100 * found.high:.3g})"
+def _in_words(result: StudyResult, metric: str, arm: str) -> str:
+    """Median, how often the study's limit is exceeded, and the worst members."""
+    limit = result.study.limits.get(metric)
+    parts = [f"median {told(at(result, metric, arm, 0.5), 3)}"]
+    parts += [f"beyond {limit:g}: {percent(beyond(result, metric, arm, limit))}"] if limit is not None else []
+    parts += [f"worst {', '.join(f'#{number}' for number in worst(result, metric, arm, _WORST))}"]
+    return "\n  ".join(parts)
+
+
+def _interval(ax: Axes, found: Estimate, share: float, colour: str) -> None:
+    """A bar from one end of an interval to the other, where it has both."""
+    if np.isfinite(found.low) and np.isfinite(found.high):
+        ax.plot([found.low, found.high], [share, share], "|-", color=colour, linewidth=2.5, markersize=7)
 
 
 def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None = None) -> Axes:
@@ -60,16 +77,13 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
     ax = ax or new_figure(7.0, 4.2).add_subplot()
     spread = []
     for colour, (other, arm) in enumerate(zip(result.arms[:-1], result.arms[1:], strict=True), start=1):
-        one, reference = result.values(metric, arm), result.values(metric, other)
-        found = compare(one, reference)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            ratio = np.where(one == reference, 1.0, one / reference)
+        found = against(result, metric, arm, other)
+        ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
-        words = (
-            f"{arm}\n  over {other}: median {found.ratio.value:.3g} ({found.ratio.low:.3g} to {found.ratio.high:.3g})"
-        )
-        shares = np.arange(1, ratio.size + 1) / found.members
-        ax.step(ratio, shares, where="post", color=_colour(colour), label=words)
+        zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
+        words = f"{arm}\n  over {other}: median {told(found.ratio, 3)}"
+        shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
+        ax.step(ratio, shares, where="post", color=_colour(colour), label=words, **_dashes(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")
@@ -77,99 +91,91 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
     return _finish(ax, "each arm against the one before; left of 1 it is better")
 
 
-def plot_map(
-    result: StudyResult, metric: str = USUAL, x: str = "", y: str = "", arm: str = "", *, ax: Axes | None = None
-) -> Axes:
-    """Mean of a metric over two draws, as a map: cells of a grid, or bins of a continuum; empty where all diverged.
-
-    Args:
-        result: what a study found.
-        metric: its name.
-        x, y: what is drawn; left out, the first two that are numbers and vary.
-        arm: its name; the first if left out.
-        ax: where to draw.
-
-    Raises:
-        ValueError: fewer than two numbers are drawn.
-    """
-    names = numbers_drawn(result)
-    if len(names) < 2:
-        raise ValueError(f"{result.study.name}: a map needs two numbers that are drawn")
-    x, y, arm = x or names[0], y or names[1], arm or result.arms[0]
-    ax = ax or new_figure(6.0, 4.2).add_subplot()
-    edges = [_edges(result[name].values) for name in (x, y)]
-    values = result.values(metric, arm)
-    sound = np.isfinite(values)
-    places = result[x].values[sound], result[y].values[sound]
-    total, *_ = np.histogram2d(*places, bins=edges, weights=values[sound])
-    count, *_ = np.histogram2d(*places, bins=edges)
-    mean = np.divide(total, count, out=np.full_like(total, np.nan), where=count > 0)
-    every = np.concatenate([result.values(metric, name) for name in result.arms])  # one scale for all arms
-    scale = {"vmin": 0.0, "vmax": every[np.isfinite(every)].max(initial=0.0)}
-    picture = ax.pcolormesh(edges[0], edges[1], mean.T, cmap="viridis", **scale)
-    ax.get_figure(root=True).colorbar(picture, ax=ax, label=label(metric))  # type: ignore[union-attr]
-    ax.set(xlabel=_named(result, x), ylabel=_named(result, y))
-    ax.set_title(arm, fontsize=9.5, loc="left")
-    return ax
-
-
 def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *, ax: Axes | None = None) -> Axes:
-    """Influence of each draw on a metric, the strongest on top.
+    """Influence of each draw on a metric, the strongest on top; in every arm, or in one.
 
     Raises:
         MissingPartnerError: SALib is not installed.
-        ValueError: too few members, or the metric does not vary.
+        ValueError: too few members, or the metric varies in no arm.
     """
-    from umbilical.studies.sensitivity import rank
-
-    arm = arm or result.arms[-1]
-    found = rank(result, metric, arm)[:_SHOWN][::-1]
+    found = _influences(result, metric, (arm,) if arm else result.arms)
+    names = [influence.name for influence in next(iter(found.values()))][:_SHOWN]
     ax = ax or new_figure(7.0, 4.2).add_subplot()
-    ax.barh([i.name for i in found], [i.first for i in found], xerr=[i.first_error for i in found], color=COLOURS[0])
+    height = 0.8 / len(found)
+    for place, (name, influences) in enumerate(found.items()):
+        by_name = {influence.name: influence for influence in influences}
+        rows = [by_name[drawn] for drawn in names]
+        lower = np.arange(len(rows)) + (place - (len(found) - 1) / 2.0) * height
+        errors = np.nan_to_num([row.first_error for row in rows])
+        bars = {"height": height, "color": _colour(result.arms.index(name)), "label": name}
+        ax.barh(lower, [row.first for row in rows], xerr=errors if errors.any() else None, **bars)
+    ax.set_yticks(range(len(names)), names)
+    ax.invert_yaxis()
     unit = METRICS[metric].unit
     share = "share of the variance explained alone"
     ax.set_xlabel(f"mean effect on {metric} [{unit}]" if result.study.design == "morris" else f"{share}, {metric}")
     ax.tick_params(labelsize=7)
-    ax.set_title(arm, fontsize=9.5, loc="left")
-    return ax
+    return _finish(ax, f"{result.data.sizes['member']} members ({result.study.design})")
+
+
+def _influences(result: StudyResult, metric: str, arms: tuple[str, ...]) -> dict[str, list[Influence]]:
+    """By arm; those in which nobody can tell are left out, unless it is all of them."""
+    from umbilical.studies.sensitivity import rank
+
+    found, reason = {}, ValueError(f"{metric}: there is no arm")
+    for arm in arms:
+        try:
+            found[arm] = rank(result, metric, arm)
+        except ValueError as error:
+            reason = error
+    if not found:
+        raise reason
+    return found
 
 
 def plot_study(result: StudyResult, metric: str = USUAL) -> Figure:
     """A first look at a study: maps where two numbers were combined, else distributions and paired ratios."""
-    mapped = result.study.design == "grid" and len(numbers_drawn(result)) >= 2
-    panels = result.arms if mapped else (("both",) if len(result.arms) < 2 else ("distribution", "comparison"))
-    figure = new_figure(5.6 * len(panels), 4.4)
-    for ax, panel in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
-        if mapped:
-            plot_map(result, metric, arm=panel, ax=ax)
-        else:
-            (plot_comparison if panel == "comparison" else plot_distribution)(result, metric, ax=ax)
+    if result.study.design == "grid" and len(numbers_drawn(result)) >= 2:
+        return _title(_maps(result, metric), result, metric)
+    panels = (plot_distribution, plot_comparison) if len(result.arms) > 1 else (plot_distribution,)
+    figure = new_figure(6.4 * len(panels), 5.2)
+    for ax, draw in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
+        draw(result, metric, ax=ax)
+    return _title(figure, result, metric)
+
+
+def _maps(result: StudyResult, metric: str) -> Figure:
+    """One map for each arm, and for the last one's ratio to the first; a row of them for each motor that fails."""
+    rows = _motors(result)
+    columns: list[dict[str, Any]] = [{"arm": arm, "top": largest_mean(result, metric, rows)} for arm in result.arms]
+    columns += [{"arm": result.arms[-1], "over": result.arms[0]}] if len(result.arms) > 1 else []
+    figure = new_figure(4.6 * len(columns), 3.6 * len(rows))
+    panels = figure.subplots(len(rows), len(columns), squeeze=False)
+    for line, where in zip(panels, rows, strict=True):
+        for ax, column in zip(line, columns, strict=True):
+            plot_map(result, metric, where=where, ax=ax, **column)
+    return figure
+
+
+def _motors(result: StudyResult) -> list[Mapping[str, Any]]:
+    """The motors that fail, one by one; one part with everything where they do not vary."""
+    names = [f"{campaign.name}.motor" for campaign in result.study.campaigns]
+    varied = [name for name in names if np.unique(result[name].values).size > 1]
+    return [{varied[0]: number} for number in np.unique(result[varied[0]].values)] if varied else [{}]
+
+
+def _title(figure: Figure, result: StudyResult, metric: str) -> Figure:
     figure.suptitle(f"{result.study.name}: {METRICS[metric].meaning}", fontsize=11)
     return figure
 
 
-def numbers_drawn(result: StudyResult) -> list[str]:
-    """Names of the draws that are numbers and vary."""
-    names = [str(name) for name in result["variable"].values]
-    return [n for n in names if result[n].dtype.kind in "fi" and not n.endswith(".motor") and np.ptp(result[n].values)]
-
-
-def _edges(values: np.ndarray) -> np.ndarray:
-    """Borders between single values where they are few, else of equal bins."""
-    single = np.unique(values)
-    if single.size > 40:
-        return np.linspace(single[0], single[-1], max(int(np.sqrt(values.size) / 2.0), 4) + 1)
-    middle = (single[1:] + single[:-1]) / 2.0
-    return np.concatenate([[2 * single[0] - middle[0]], middle, [2 * single[-1] - middle[-1]]])
-
-
-def _named(result: StudyResult, name: str) -> str:
-    unit = result[name].attrs["units"]
-    return f"{name} [{unit}]" if unit not in ("", "1") else name
-
-
 def _colour(number: int) -> str:
     return COLOURS[number % len(COLOURS)]
+
+
+def _dashes(number: int) -> dict[str, Any]:
+    """Neighbours differ in dashes, the dashed ones on top, so that both show where they agree."""
+    return {"linestyle": "--", "zorder": 3} if number % 2 else {}
 
 
 def _logarithmic_if_wide(ax: Axes, values: np.ndarray) -> None:

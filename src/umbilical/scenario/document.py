@@ -232,14 +232,21 @@ def _assign(data: Data, key: str, value: Any) -> Problem | None:
     if isinstance(table, dict):
         if last in TAGS and isinstance(value, str) and table.get(last, value) != value:
             table.clear()
-        table[last] = value
+        table[last] = _thaw(value)
         if value is None:
             del table[last]
         return None
     if isinstance(table, list) and (place := _place(last, len(table))) is not None:
-        table[place] = value
+        table[place] = _thaw(value)
         return None
     return _nowhere(data, key, value)
+
+
+def _thaw(value: Any) -> Any:
+    """A copy that further overrides can enter: a frozen list is a list again."""
+    if isinstance(value, Mapping):
+        return {key: _thaw(item) for key, item in value.items()}
+    return [_thaw(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def _enter(table: Any, step: str) -> Any:

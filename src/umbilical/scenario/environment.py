@@ -46,16 +46,20 @@ class CableLoad(Record):
     """A load along the cable: a profile over sigma = x/l times a signal of time, N/m."""
 
     profile: Profile
-    signal: Signal = Field(description="how much of the profile acts, over time, N/m")
+    signal: Signal = Field(description="how much of the profile acts, over time", json_schema_extra={"unit": "N/m"})
 
 
 class Environment(Record):
     """Gravity, loads and the vessel."""
 
     gravity: float = quantity("gravity", gt=0.0, le=100.0, reason="the cable hangs", cure="9.81 m/s2 on earth")
-    payload_force: Signal = Field(default=(), description="external force on the ROV d(t), N")
+    payload_force: Signal = Field(
+        default=(), description="external force on the ROV d(t)", json_schema_extra={"unit": "N"}
+    )
     cable_load: tuple[CableLoad, ...] = Field(default=(), description="loads along the cable f(x,t), N/m")
-    vessel_motion: Signal = Field(default=(), description="transverse motion of the vessel e(t), m")
+    vessel_motion: Signal = Field(
+        default=(), description="transverse motion of the vessel e(t)", json_schema_extra={"unit": "m"}
+    )
     vessel_ramp: float = quantity(
         "vessel_ramp",
         0.0,

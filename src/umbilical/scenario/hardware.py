@@ -47,5 +47,9 @@ class Motor(Record):
     voltage_limit: float | None = quantity(
         "voltage_limit", None, gt=0.0, reason="the drive is clipped at plus and minus it", cure="leave out for none"
     )
-    torque_disturbance: Signal = Field(default=(), description="torque from outside d1(t), N m")
-    voltage_disturbance: Signal = Field(default=(), description="voltage beside the drive's d2(t), V")
+    torque_disturbance: Signal = Field(
+        default=(), description="torque from outside d1(t)", json_schema_extra={"unit": "N m"}
+    )
+    voltage_disturbance: Signal = Field(
+        default=(), description="voltage beside the drive's d2(t)", json_schema_extra={"unit": "V"}
+    )

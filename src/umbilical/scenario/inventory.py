@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from pydantic.fields import FieldInfo
+
 from umbilical.scenario.base import Record
 from umbilical.scenario.fields import word
 from umbilical.scenario.scenario import Scenario
@@ -44,6 +46,32 @@ def inventory(scenario: Scenario) -> list[Entry]:
     '2.0'
     """
     return [entry for entry in _entries(scenario, "", scenario.assumed) if entry.key not in _ELSEWHERE]
+
+
+def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
+    """Unit and meaning of the value at a dotted key of this scenario, kinds of tables included; empty where the
+    scenario has no such place.
+
+    >>> from umbilical.admission import load
+    >>> words_at(load("paper"), "environment.payload_force.2.phase")[0]
+    'rad'
+    """
+    here: Any = scenario
+    field: FieldInfo | None = None
+    units = [""]
+    for step in key.split("."):
+        if isinstance(here, Record):
+            field = type(here).model_fields.get(step)
+            units = [unit for unit in word(field, "unit").split(", ") if unit] or units  # a signal's: what it is of
+            here = getattr(here, step, None)
+        elif isinstance(here, tuple) and step.isdecimal() and 1 <= int(step) <= len(here):
+            units = units[int(step) - 1 :] or units[-1:]  # one unit for each place of a list, the last for all others
+            here = here[int(step) - 1]
+        else:
+            return "", ""
+    if field is None:
+        return "", ""
+    return "" if isinstance(here, str) else units[0], field.description or ""
 
 
 def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[Entry]:

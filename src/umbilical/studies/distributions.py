@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from functools import singledispatch
-from math import exp, log
+from math import exp, floor, log
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record
+
+_ROUNDING = 1e-12
 
 Drawn = float | int | str | bool
 Entry = Annotated[float, Field(ge=-1e12, le=1e12)] | int | str | bool
@@ -20,7 +22,7 @@ class Uniform(Record):
     kind: Literal["uniform"]
     low: Number = Field(description="smallest value")
     high: Number = Field(description="largest value")
-    step: float | None = Field(default=None, gt=0.0, le=1e12, description="values are rounded to multiples of it")
+    step: float | None = Field(default=None, gt=0.0, le=1e12, description="values are low and whole steps above it")
 
 
 class LogUniform(Record):
@@ -85,8 +87,11 @@ def _quantile(distribution: Any, share: float) -> Drawn:
 
 @_quantile.register
 def _(distribution: Uniform, share: float) -> Drawn:
-    value = distribution.low + share * (distribution.high - distribution.low)
-    return value if distribution.step is None else round(round(value / distribution.step) * distribution.step, 12)
+    low, span, step = distribution.low, distribution.high - distribution.low, distribution.step
+    if step is None:
+        return low + share * span
+    most = floor(span / step * (1.0 + _ROUNDING))  # 0.3 / 0.1 is a little below 3
+    return round(low + min(round(share * span / step), most) * step, 12)
 
 
 @_quantile.register

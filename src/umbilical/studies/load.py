@@ -69,10 +69,28 @@ def admit_study(data: Mapping[str, Any], origin: str, problems: list[Problem] | 
     try:
         study = Study.model_validate(freeze(data))
     except ValidationError as error:
-        raise ScenarioError([*(problems or []), *problems_of(error, Study)], origin) from error
+        found = [*(problems or []), *problems_of(error, Study), *_beside(data, error)]
+        raise ScenarioError(found, origin) from error
     if found := [*(problems or []), *problems_across(study)]:
         raise ScenarioError(found, origin)
     return study
+
+
+def _beside(data: Mapping[str, Any], error: ValidationError) -> list[Problem]:
+    """What is wrong across the fields that are sound one by one, so that all problems come at once."""
+    places = [complaint["loc"] for complaint in error.errors(include_url=False)]
+    kept = {key: value for key, value in data.items() if key not in {str(place[0]) for place in places}}
+    if "arms" not in kept:
+        kept.pop("tuning", None)  # which speaks of them
+    for key, stub in (("factors", None), ("arms", {"name": "wrong"})):  # an arm keeps its number, a factor has its key
+        wrong = {place[1] for place in places if place[0] == key and len(place) > 1}
+        if wrong:
+            kept[key] = [stub if number in wrong else entry for number, entry in enumerate(data[key])]
+            kept[key] = [entry for entry in kept[key] if entry is not None]
+    try:
+        return problems_across(Study.model_validate(freeze(kept)))
+    except ValidationError:  # without its scenario or its name nothing more can be said
+        return []
 
 
 def study_names() -> tuple[str, ...]:

@@ -59,6 +59,21 @@ def needed_of_a_fault(kind: str) -> tuple[str, ...]:
     return _BELONGS_TO.get(kind, ())
 
 
+def units_of_a_fault(campaign: Campaign) -> dict[str, str]:
+    """Unit of each part of a campaign's faults."""
+    stuck = "V" if campaign.target == "voltage" else "rad2/s2"
+    return {
+        "kind": "",
+        "motor": "",
+        "start": "s",
+        "effectiveness": "1",
+        "value": stuck,
+        "over": "s",
+        "cycle": "s",
+        "duty": "1",
+    }
+
+
 @dataclass(frozen=True)
 class Draws:
     """All draws of a study."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -18,9 +18,9 @@ from umbilical.errors import FileError
 from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import METRICS
 from umbilical.run import CONVENTION
-from umbilical.scenario.fields import locate, word
+from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
-from umbilical.studies.members import Draws
+from umbilical.studies.members import Draws, units_of_a_fault
 from umbilical.studies.rows import NAMES, STATUSES, Row
 from umbilical.studies.study import Study
 
@@ -72,13 +72,17 @@ class StudyResult:
         draws = Draws(self.study)
         return draws.scenario(draws.member(member), 0 if arm is None else arms.index(arm))
 
+    def ended(self, arm: str, status: str) -> np.ndarray:
+        """Whether each member ended so in an arm; a status of :data:`~umbilical.studies.rows.STATUSES`."""
+        return self.data["status"].sel(arm=arm).values == STATUSES.index(status)
+
     def values(self, metric: str, arm: str) -> np.ndarray:
         """A metric of every member in one arm: infinite where the run diverged or failed, since that is worse than
-        any number; not a number where the scenario was refused."""
+        any number; not a number where the scenario was refused, or has no such metric (a peak after no fault)."""
         chosen = self.data.sel(arm=arm)
-        status = chosen["status"].values
-        values = np.where(status == STATUSES.index("COMPLETED"), chosen[metric].values, np.inf)
-        return np.where(status == STATUSES.index("REFUSED"), np.nan, values)
+        found = chosen[metric].values if metric in chosen else np.full(chosen.sizes["member"], np.nan)
+        values = np.where(self.ended(arm, "COMPLETED"), found, np.inf)
+        return np.where(self.ended(arm, "REFUSED"), np.nan, values)
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Store as NetCDF4; the same study gives the same bytes.
@@ -128,29 +132,26 @@ def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
             {"long_name": "what is drawn"},
         ),
     }
-    drawn = [draws.values(draws.member(int(number))) for number in members]
+    drawn, words = [draws.values(draws.member(int(number))) for number in members], _drawn_words(study, draws)
     for variable in draws.variables:
         column = np.array([values[variable.name] for values in drawn])
-        found[variable.name] = ("member", column, _words(*_unit_and_meaning(study, variable.name)))
+        found[variable.name] = ("member", column, _words(*words[variable.name]))
     return found
 
 
-def _unit_and_meaning(study: Study, name: str) -> tuple[str, str]:
-    """Words of a column; a relative factor is a pure number."""
-    relative = {factor.key: factor.relative for factor in study.factors}
-    if name not in relative:
-        part = name.rpartition(".")[2]
-        units = {"start": "s", "over": "s", "cycle": "s", "effectiveness": "1", "duty": "1"}
-        return units.get(part, ""), f"{part} of the fault"
-    field = locate(Scenario, [int(s) - 1 if s.isdecimal() else s for s in _untagged(name)]).field
-    meaning = (field.description if field else "") or name
-    return ("1", f"factor on: {meaning}") if relative[name] else (word(field, "unit"), meaning)
-
-
-def _untagged(key: str) -> Sequence[str]:
-    """A key's steps, or none where it runs through kinds of tables, whose words depend on the kind."""
-    steps = key.split(".")
-    return steps if not any(s in ("law", "payload_force", "vessel_motion", "winch", "initial") for s in steps) else ()
+def _drawn_words(study: Study, draws: Draws) -> dict[str, tuple[str, str]]:
+    """Unit and meaning of every column; they are those of the first arm, since kinds of tables decide on them."""
+    first = next(draws.undrawn())
+    found = {}
+    for factor in study.factors:
+        unit, meaning = words_at(first, factor.key)
+        meaning = meaning or factor.key
+        found[factor.key] = ("1", f"factor on the {meaning}") if factor.relative else (unit, meaning)
+    return found | {
+        f"{campaign.name}.{part}": (unit, f"{part} of the {campaign.name}")
+        for campaign in study.campaigns
+        for part, unit in units_of_a_fault(campaign).items()
+    }
 
 
 def _words(unit: str, meaning: str) -> dict[str, str]:

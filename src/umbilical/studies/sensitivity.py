@@ -8,6 +8,7 @@ import numpy as np
 
 from umbilical.studies.designs import partner, salib_problem
 from umbilical.studies.results import StudyResult
+from umbilical.studies.statistics import NO_SAMPLE
 
 _RESAMPLES = 200
 
@@ -19,7 +20,7 @@ class Influence(NamedTuple):
         name: what is drawn.
         first: share of the variance it explains alone (Sobol's first index); Morris: its elementary effects' mean size,
             in the metric's unit over the whole range of the draw.
-        first_error: half of the 95 % confidence interval of that.
+        first_error: half of the 95 % confidence interval of that; not a number where it is exact.
         total: share of the variance it has a part in (Sobol's total index); Morris: deviation of its effects, which is
             large where it acts differently in company; not a number where the design does not tell.
     """
@@ -35,12 +36,12 @@ def rank(result: StudyResult, metric: str, arm: str) -> list[Influence]:
 
     A study with the design ``saltelli`` gives Sobol's indices, first and total; one with ``morris`` elementary effects;
     a grid Sobol's first indices without any error, and needs no SALib; any other the first indices, estimated from the
-    draws as they are (random balance designs). Runs that did not
-    complete count as the largest value that one of those that did has.
+    draws as they are (random balance designs). Runs that diverged or failed count as the largest value that one of
+    those that did not has; members that were refused, being no possible systems, are left out.
 
     Raises:
         MissingPartnerError: SALib is not installed.
-        ValueError: too few members, or nothing varies.
+        ValueError: too few members, nothing varies, or members were refused of a design that needs them all.
 
     >>> from umbilical.studies.load import load_study
     >>> from umbilical.studies.sweep import sweep
@@ -50,7 +51,7 @@ def rank(result: StudyResult, metric: str, arm: str) -> list[Influence]:
     ...
     ValueError: tip_peak does not vary in the arm 'proposed'
     """
-    points, values = result["point"].values, _finite(result.values(metric, arm))
+    points, values = _possible(result, metric, arm)
     if np.ptp(values) == 0.0:
         raise ValueError(f"{metric} does not vary in the arm '{arm}'")
     columns = _of_a_grid(points, values) if result.study.design == "grid" else _by_salib(result, points, values)
@@ -66,7 +67,7 @@ def _of_a_grid(points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, ...]
         _, places = np.unique(column, return_inverse=True)
         means = np.bincount(places, values) / np.bincount(places)
         first.append(np.var(means[places]) / np.var(values))
-    return np.array(first), np.zeros(len(first)), np.full(len(first), np.nan)
+    return np.array(first), *np.full((2, len(first)), np.nan)
 
 
 def _by_salib(result: StudyResult, points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -85,6 +86,14 @@ def _by_salib(result: StudyResult, points: np.ndarray, values: np.ndarray) -> tu
     return found["S1"], found["S1_conf"], np.full(points.shape[1], np.nan)
 
 
-def _finite(values: np.ndarray) -> np.ndarray:
-    sound = values[np.isfinite(values)]
-    return np.where(np.isfinite(values), values, sound.max() if sound.size else 0.0)
+def _possible(result: StudyResult, metric: str, arm: str) -> tuple[np.ndarray, np.ndarray]:
+    """Points and values of the members that are possible systems."""
+    points, values = result["point"].values, result.values(metric, arm)
+    possible = ~np.isnan(values)
+    if result.study.design in NO_SAMPLE and not possible.all():
+        lost = np.count_nonzero(~possible)
+        raise ValueError(f"{lost} members have no {metric}, and a {result.study.design} design needs them all")
+    if not np.isfinite(values).any():
+        raise ValueError(f"no member has a {metric} in the arm '{arm}'")
+    values = np.where(np.isinf(values), values[np.isfinite(values)].max(), values)
+    return points[possible], values[possible]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
@@ -17,7 +16,11 @@ from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Study
 
 MANIFEST, JOURNAL, LOCK, RUNS = "manifest.json", "journal.txt", "lock", "runs"
-RESULTS = ("study.nc", "tuning.json", "tuned.toml")
+RESULTS = ("study.nc", "tuning.json", "tuned-[0-9]*.toml")
+STORED = "member-*-arm-*.nc"
+"""Complete runs, in the folder ``runs``."""
+_PARTS = ".umbilical-*.part"
+"""What a process leaves that was killed while it wrote."""
 
 
 class Store:
@@ -56,8 +59,8 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
     _make(folder)
     _refuse_strangers(folder)
     with _locked(folder):
-        for part in folder.rglob(".umbilical-*.part"):
-            part.unlink()  # of a process that was killed while it wrote
+        for part in [*folder.glob(_PARTS), *(folder / RUNS).glob(_PARTS)]:
+            part.unlink()
         if force:
             _clear(folder)
         _settle(folder, study, task, resume)
@@ -84,22 +87,26 @@ def fingerprint(study: Study, task: str) -> dict[str, Any]:
 
 def _settle(folder: Path, study: Study, task: str, resume: bool) -> None:
     """Write the manifest into a new folder, or compare with the one that is there."""
-    path, mine = folder / MANIFEST, fingerprint(study, task)
-    if not path.exists():
-        (folder / JOURNAL).unlink(missing_ok=True)  # whose it was nobody knows
+    mine, found = fingerprint(study, task), _manifest(folder)
+    if found is None:
         content = {**mine, "name": study.name, "study": study.to_toml()}
-        files.write(path, (json.dumps(content, indent=1) + "\n").encode())
+        files.write(folder / MANIFEST, (json.dumps(content, indent=1) + "\n").encode())
         return
     if not resume:
         raise OutputError(f"{folder}: holds a study already; --resume goes on with it, --force begins anew")
-    try:
-        found = json.loads(files.read(path))
-    except ValueError as error:
-        raise FileError(f"{path}: this is not a manifest ({error}); --force begins anew") from error
-    different = [name for name, value in mine.items() if found.get(name) != value]
+    different = [name for name, value in mine.items() if found[name] != value]
     if different:
         reason = _WORDS[different[0]]
         raise FileError(f"{folder}: was begun with {reason}, and the parts would not fit; --force begins anew")
+
+
+def _manifest(folder: Path) -> dict[str, Any] | None:
+    """What the folder's manifest says, if it is one of ours: only then are its files."""
+    try:
+        found = json.loads((folder / MANIFEST).read_bytes())
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) and found.keys() >= _WORDS.keys() else None
 
 
 _WORDS = {
@@ -112,11 +119,15 @@ _WORDS = {
 
 
 def _refuse_strangers(folder: Path) -> None:
-    """Leave folders alone that hold something else."""
-    ours = (LOCK, JOURNAL, RUNS)
-    strangers = [e.name for e in folder.iterdir() if e.name not in ours and not e.name.startswith(".umbilical-")]
-    if strangers and MANIFEST not in strangers:
-        raise OutputError(f"{folder}: holds {min(strangers)}, and no study; name another folder")
+    """Leave folders alone that hold something else: without a manifest no file is ours, whatever its name."""
+    strangers = sorted(entry.name for entry in folder.iterdir() if not _is_lock(entry) and not entry.match(_PARTS))
+    if strangers and _manifest(folder) is None:
+        raise OutputError(f"{folder}: holds {strangers[0]}, and no study; name another folder")
+
+
+def _is_lock(entry: Path) -> bool:
+    """Our lock is an empty file."""
+    return entry.name == LOCK and entry.is_file() and entry.stat().st_size == 0
 
 
 def _make(folder: Path) -> None:
@@ -127,10 +138,12 @@ def _make(folder: Path) -> None:
 
 
 def _clear(folder: Path) -> None:
-    """Remove what this module wrote, and nothing else."""
-    for name in (MANIFEST, *RESULTS, JOURNAL):  # the manifest first: without it nothing counts
-        (folder / name).unlink(missing_ok=True)
-    shutil.rmtree(folder / RUNS, ignore_errors=True)
+    """Remove what this module wrote, and nothing else; the manifest last, which says whose all the rest is."""
+    for pattern in (*RESULTS, JOURNAL, f"{RUNS}/{STORED}", MANIFEST):
+        for path in folder.glob(pattern):
+            path.unlink()
+    with suppress(OSError):  # it is not there, or holds what is not ours
+        (folder / RUNS).rmdir()
 
 
 @contextmanager

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from math import exp, log
 from typing import Any, Literal
 
 from pydantic import Field
@@ -65,6 +66,12 @@ class Gain(Record):
     low: Number = Field(description="smallest value tried")
     high: Number = Field(description="largest value tried")
     scale: Literal["linear", "log"] = Field(default="linear", description="how values are spread between the bounds")
+
+    def at(self, share: float) -> float:
+        """The value at a share, 0 to 1, of the way from low to high."""
+        if self.scale == "log":
+            return exp(log(self.low) + share * (log(self.high) - log(self.low)))
+        return self.low + share * (self.high - self.low)
 
 
 class Objective(Record):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,14 +12,15 @@ import numpy as np
 from umbilical.engine.simulate import simulate
 from umbilical.errors import OutputError
 from umbilical.formats import to_netcdf
-from umbilical.studies.engines import Engine, default_jobs, in_pool, processes, threads
+from umbilical.studies.engines import Engine, default_jobs, processes, threads
 from umbilical.studies.members import Draws, Member
 from umbilical.studies.results import StudyResult, assemble
-from umbilical.studies.rows import Row, from_entry, make_controller
-from umbilical.studies.store import RUNS, Store, open_store
+from umbilical.studies.rows import Row, from_entry
+from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
 
 Progress = Callable[[float], None]
+Tell = Callable[[str], None]
 
 
 def sweep(
@@ -31,6 +32,7 @@ def sweep(
     resume: bool = False,
     force: bool = False,
     progress: Progress = lambda share: None,
+    tell: Tell = lambda text: None,
 ) -> StudyResult:
     """Run every member of a study in every arm.
 
@@ -43,6 +45,7 @@ def sweep(
         resume: go on with what is in the folder.
         force: begin anew, and remove what is in the folder.
         progress: called with the share done, 0 to 1.
+        tell: called with what is to be said before the start: the size of complete runs.
 
     Returns:
         The result. Members that diverged, were refused or failed are rows of it, with the reason.
@@ -62,7 +65,7 @@ def sweep(
     if folder is None:
         return assemble(study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
     with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
-        return _into(store, draws, engine, progress)
+        return _into(store, draws, engine, progress, tell)
 
 
 def default_engine(study: Study, jobs: int) -> Engine:
@@ -70,21 +73,26 @@ def default_engine(study: Study, jobs: int) -> Engine:
     return (processes if any(arm.controller for arm in study.arms) else threads)(jobs)
 
 
-def _into(store: Store, draws: Draws, engine: Engine, progress: Progress) -> StudyResult:
+def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, tell: Tell) -> StudyResult:
     study, done = draws.study, {number for number, _ in store.entries()}
     if study.trajectories.keep != "none":
-        _check_room(store.folder, draws)
+        _check_room(store, draws, tell)
     found = engine(draws, _members(draws, done))
     for row in _counted(found, len(draws), len(done), progress):
-        for cell, run in enumerate(row.runs):
-            if run is not None:
-                store.save(run, run_name(row.number, cell))
+        _store_runs(store, row, range(len(study.arms)))
         store.journal.append(row[:2])
     result = assemble(study, map(from_entry, store.entries()))
-    if study.trajectories.keep == "worst":
-        _keep_the_worst(store, draws, result)
     store.save(to_netcdf(result.data), "study.nc")
+    if study.trajectories.keep == "worst":
+        _keep_the_worst(store, draws, engine, result)
     return result
+
+
+def _store_runs(store: Store, row: Row, arms: Sequence[int]) -> None:
+    """The complete runs of a row, in these arms; those that were refused or failed have none."""
+    for arm, run in zip(arms, row.runs, strict=bool(row.runs)):
+        if run is not None:
+            store.save(run, run_name(row.number, arm))
 
 
 def _members(draws: Draws, done: set[int]) -> Iterator[Member]:
@@ -112,11 +120,14 @@ def disk_needed(draws: Draws) -> int:
     return count * sum(len(to_netcdf(simulate(scenario).data)) for scenario in draws.undrawn())
 
 
-def _check_room(folder: Path, draws: Draws) -> None:
-    need, room = disk_needed(draws), shutil.disk_usage(folder).free
+def _check_room(store: Store, draws: Draws, tell: Tell) -> None:
+    """Say what complete runs will take, and refuse what there is no room for; those that are there need none."""
+    there = sum(file.stat().st_size for file in (store.folder / RUNS).glob(STORED))
+    need, room = max(disk_needed(draws) - there, 0), shutil.disk_usage(store.folder).free
+    tell(f"complete runs ({draws.study.trajectories.keep}): about {need / 1e6:.3g} MB will be stored beside the result")
     if need > room:
         raise OutputError(
-            f"{folder}: complete runs would take {need / 1e9:.3g} GB, and {room / 1e9:.3g} GB are free; "
+            f"{store.folder}: complete runs would take {need / 1e9:.3g} GB, and {room / 1e9:.3g} GB are free; "
             "set trajectories.keep, a longer output.interval, or name another disk"
         )
 
@@ -124,28 +135,20 @@ def _check_room(folder: Path, draws: Draws) -> None:
 def worst(result: StudyResult, metric: str, arm: str, count: int) -> list[int]:
     """Members with the largest values of a metric in an arm, the worst first; diverged ones lead, equals by number.
 
-    Members that were refused are left out: they are no possible systems.
+    Left out are members that were refused, which are no possible systems, and those that failed, which have no run.
     """
-    values = result.values(metric, arm)
+    values = np.where(result.ended(arm, "FAILED"), np.nan, result.values(metric, arm))
     order = np.argsort(-np.nan_to_num(values, nan=-np.inf, posinf=np.inf), kind="stable")
     return [int(place) + 1 for place in order if not np.isnan(values[place])][:count]
 
 
-def _keep_the_worst(store: Store, draws: Draws, result: StudyResult) -> None:
-    """Run the worst members once more, completely: a member is the same whenever it is run."""
-    from concurrent.futures import ThreadPoolExecutor
-
+def _keep_the_worst(store: Store, draws: Draws, engine: Engine, result: StudyResult) -> None:
+    """Run the worst members of each arm once more, completely: a member is the same whenever it is run."""
     keep = draws.study.trajectories
-    wanted = [
-        (number, arm) for arm, name in enumerate(result.arms) for number in worst(result, keep.metric, name, keep.count)
-    ]
-
-    def again(which: tuple[int, int]) -> tuple[str, bytes]:
-        number, arm = which
-        scenario = draws.scenario(draws.member(number), arm)
-        run = simulate(scenario, make_controller(draws.study.arms[arm].controller, scenario))
-        return run_name(number, arm), to_netcdf(run.data)
-
-    with ThreadPoolExecutor(default_jobs()) as pool:
-        for name, content in in_pool(pool, again, wanted, default_jobs()):
-            store.save(content, name)
+    for number, arm in enumerate(draws.study.arms):
+        wanted = worst(result, keep.metric, arm.name, keep.count)
+        lacking = [member for member in wanted if not (store.folder / run_name(member, number)).exists()]
+        whole = keep.model_copy(update={"keep": "all"})
+        alone = Draws(draws.study.model_copy(update={"arms": (arm,), "trajectories": whole}))
+        for row in engine(alone, map(draws.member, lacking)) if lacking else ():
+            _store_runs(store, row, [number])

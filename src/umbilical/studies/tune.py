@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
-from math import exp, isnan, log
+from math import isnan
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 from umbilical.admission import admit, load, preset_names
 from umbilical.analysis.paired import quantile
 from umbilical.errors import Problem, ScenarioError
-from umbilical.scenario.document import look_up, override, validate
+from umbilical.scenario.document import extend, look_up, override, validate
 from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.engines import Engine, default_jobs
@@ -24,7 +24,7 @@ from umbilical.studies.members import arm_data
 from umbilical.studies.results import StudyResult
 from umbilical.studies.search import Point, Verdict, choose, front
 from umbilical.studies.store import Store, open_store
-from umbilical.studies.study import Arm, Gain, Objective, Study, Tuning
+from umbilical.studies.study import Arm, Objective, Study, Tuning
 from umbilical.studies.sweep import default_engine, sweep
 
 Progress = Callable[[float], None]
@@ -62,6 +62,17 @@ class Tuned:
         """Trials that keep every condition and that no other beats in every objective."""
         return tuple(self.trials[k] for k in front([trial.verdict for trial in self.trials]))
 
+    @property
+    def broken(self) -> dict[str, int]:
+        """How many trials broke each condition; the later ones are not asked once an earlier one is broken."""
+        verdicts = [trial.verdict.violations for trial in self.trials]
+        return {name: sum(v[k] > 0.0 for v in verdicts) for k, name in enumerate(self.conditions)}
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Name of the scenario of each trial of the front, in the folder of the search."""
+        return tuple(f"tuned-{number}.toml" for number in range(1, len(self.front) + 1))
+
     def document(self) -> dict[str, Any]:
         """As plain data, the same for the same search."""
         best = self.front
@@ -71,6 +82,7 @@ class Tuned:
             "optimiser": self.optimiser,
             "objectives": [name_of(o) for o in tuning_of(self.study).objectives],
             "conditions": list(self.conditions),
+            "broken": self.broken,
             "front": [_plain(trial) for trial in best],
             "trials": [_plain(trial) for trial in self.trials],
         }
@@ -95,7 +107,8 @@ def tune(
 
     Args:
         study: with a section ``tuning``.
-        folder: where trials are kept as they go, ``tuning.json`` and ``tuned.toml`` in the end; None keeps nothing.
+        folder: where trials are kept as they go, ``tuning.json`` and a scenario for each trial of the front,
+            ``tuned-1.toml`` and so on, in the end; None keeps nothing.
         optimiser: ``optuna``, ``scipy``, or ``auto`` for the first that is installed.
         engine: who runs the members of a trial; all cores of this machine by default.
         constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
@@ -142,7 +155,7 @@ class _Trials:
 
     def judge(self, point: Point) -> Verdict:
         """What comes of a point of the unit cube."""
-        gains = {g.key: _scaled(g, share) for g, share in zip(tuning_of(self._study).gains, point, strict=True)}
+        gains = {g.key: g.at(share) for g, share in zip(tuning_of(self._study).gains, point, strict=True)}
         if (verdict := self._known.get(point)) is None:
             verdict = judge(self._study, gains, self._conditions, self._engine)
             self._known[point] = verdict
@@ -203,22 +216,32 @@ def name_of(objective: Objective) -> str:
 
 
 def to_patch(study: Study, gains: Mapping[str, float]) -> str:
-    """TOML of the study's scenario with the tuned arm's changes and the gains; of a preset only what differs."""
+    """TOML of the scenario that was tuned: the study's own changes, the tuned arm's and the gains; of a preset only
+    what differs."""
     import tomlkit
 
-    changes = {**_arm(study).changes, **gains}
-    base = study.scenario
-    data = override(base.to_dict(), {**changes, "name": f"{base.name}-tuned"[:80]}, study.name)
+    base, changes = study.scenario, {**study.changes, **_arm(study).changes, **gains}
+    name = f"{base.name}-tuned"[:80]
+    tuned = validate(override(arm_data(study, {**_arm(study).changes, **gains}), {"name": name}, name), name)
     if base.name not in preset_names() or load(base.name) != base:
-        return validate(data, study.name).to_toml()
-    patch: dict[str, Any] = {"extends": base.name, "name": data["name"]}
+        return tuned.to_toml()
+    data, patch = tuned.to_dict(), {"extends": base.name, "name": name}
     for key in changes:
-        *tables, last = _up_to_a_list(key)
-        table = patch
-        for step in tables:
-            table = table.setdefault(step, {})
-        table[last] = look_up(data, ".".join((*tables, last)))
-    return tomlkit.dumps(patch)
+        _copy(data, patch, _up_to_a_list(key))
+    expressed = validate(extend(base.to_dict(), {key: patch[key] for key in patch if key != "extends"}), name) == tuned
+    return tomlkit.dumps(patch) if expressed else tuned.to_toml()  # a table may say what is there, not what is not
+
+
+def _copy(data: Mapping[str, Any], patch: dict[str, Any], steps: Sequence[str]) -> None:
+    """The value at a place of the data into the same place of a patch, if there is one."""
+    *tables, last = steps
+    try:
+        value = look_up(data, ".".join(steps))
+    except KeyError:
+        return
+    for step in tables:
+        patch = patch.setdefault(step, {})
+    patch[last] = value
 
 
 def _up_to_a_list(key: str) -> list[str]:
@@ -229,8 +252,8 @@ def _up_to_a_list(key: str) -> list[str]:
 
 def _keep(store: Store, found: Tuned) -> None:
     store.save((json.dumps(found.document(), indent=1) + "\n").encode(), "tuning.json")
-    if found.front:
-        store.save(found.patch(found.front[0]).encode(), "tuned.toml")
+    for name, trial in zip(found.files, found.front, strict=True):
+        store.save(found.patch(trial).encode(), name)
 
 
 def _plain(trial: Trial) -> dict[str, Any]:
@@ -240,12 +263,6 @@ def _plain(trial: Trial) -> dict[str, Any]:
 
 def _arm(study: Study) -> Arm:
     return next(arm for arm in study.arms if arm.name == tuning_of(study).arm)
-
-
-def _scaled(gain: Gain, share: float) -> float:
-    if gain.scale == "log":
-        return exp(log(gain.low) + share * (log(gain.high) - log(gain.low)))
-    return gain.low + share * (gain.high - gain.low)
 
 
 def _known(known: Mapping[str, Constraint], name: str) -> Constraint:
