@@ -29,6 +29,9 @@ def design(
     ] = None,
     objective: Annotated[Objective, Option("--objective", help="What the gains shall serve.")] = "both",
     inner: Annotated[bool, Option("--inner", help="Choose the motor loops' gains, too.")] = False,
+    periods: Annotated[
+        str | None, Option("--periods", metavar="S,...", help="Control periods to choose among, s; a search each.")
+    ] = None,
     gain: Annotated[float, Option("--gain-margin", metavar="DB", help="Both ways, dB.")] = 6.0,
     phase: Annotated[float, Option("--phase-margin", metavar="DEG", help="Both ways, degrees.")] = 30.0,
     delay: Annotated[float, Option("--delay-margin", metavar="N", help="In control periods.")] = 2.0,
@@ -49,7 +52,7 @@ def design(
     examples
       umbilical design ringdown --inner --plot design.png
       umbilical design paper --objective rejection --limits voltage=40,chatter=0.05
-      umbilical design my.toml --inner --out tuned.toml
+      umbilical design my.toml --inner --periods 0.0005,0.001,0.002 --out tuned.toml
 
     Exit code 7: some margin or limit is not kept; what was found is told all the same.
     """
@@ -67,7 +70,7 @@ def design(
     announce_compilation()
     with bar("designing") as advance:
         found = compute(
-            chosen, objective, inner=inner, demands=demands, limits=_limits(limits),
+            chosen, objective, inner=inner, periods=_periods(periods), demands=demands, limits=_limits(limits),
             operating_thrust=operating_thrust, progress=advance,
         )  # fmt: skip
     files = _write(found, out, plot, force)
@@ -76,6 +79,21 @@ def design(
     else:
         say("\n".join([text(found), *(f"  {role}: {path}" for role, path in files.items())]))
     return 0 if found.met else 7
+
+
+def _periods(words: str | None) -> list[float]:
+    """``0.001,0.002`` as periods, s.
+
+    Raises:
+        BadParameter: not positive numbers.
+    """
+    try:
+        found = [float(word) for word in words.split(",")] if words else []
+    except ValueError:
+        found = [-1.0]
+    if not all(0.0 < period < math.inf for period in found):
+        raise BadParameter(f"'{words}' are not times above 0 s, with commas between them", param_hint="--periods")
+    return found
 
 
 def _limits(words: str | None) -> Limits:

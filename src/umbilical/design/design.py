@@ -12,9 +12,10 @@ from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
 from umbilical.design.margins import check_request
-from umbilical.design.rounds import Limits, Outcome, Side, design_within, side
+from umbilical.design.paces import pace, paced
+from umbilical.design.rounds import Limits, Outcome, Side, badness, design_within, side
 from umbilical.design.score import Demands, Score
-from umbilical.design.search import Objective, Task, Values, inner_knobs, outer_knobs
+from umbilical.design.search import Objective, Task, Values, inner_knobs
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
@@ -70,6 +71,7 @@ def design(
     objective: Objective = "both",
     *,
     inner: bool = False,
+    periods: Sequence[float] = (),
     demands: Demands | None = None,
     limits: Limits | None = None,
     operating_thrust: float | None = None,
@@ -83,6 +85,8 @@ def design(
         objective: ``ringdown``: the ROV swallows the waves of the first modes; ``rejection``: it stays where it
             is under force; ``both``: the first, without losing any of the second.
         inner: choose the gains and the filter of the motor loops, too.
+        periods: control periods to choose among, s; the scenario's own if left out. An outer period stays the same
+            number of them. Every one is a search of its own.
         demands: margins, at every length between the shortest of the run and an endless one.
         limits: on voltage, speed and chatter in a simulation of the scenario; where gains exceed them, the search
             is repeated with less effort of the motors.
@@ -90,7 +94,7 @@ def design(
         progress: called with the share done, 0 to 1.
 
     Raises:
-        ScenarioError: the scenario has no boundary law with observers.
+        ScenarioError: the scenario has no boundary law with observers, or a period cannot be its own.
     """
     check_design(scenario)
     demands, limits = demands or Demands(), limits or Limits()
@@ -98,26 +102,37 @@ def design(
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
     check_request(scenario, lengths, thrust)
     wave_speed = hanging_cable(scenario, lengths[0]).tip_wave_speed
-    motor_knobs = inner_knobs(scenario)
-    knobs = outer_knobs(scenario, wave_speed) + (motor_knobs if inner else [])
-    task = Task(scenario, knobs, objective, demands, min(lengths), thrust)
+    base = Task(scenario, (), objective, demands, min(lengths), thrust, present=scenario)
+    paces = [pace(scenario, period) for period in periods] or [{}]
+    tasks = [paced(base, new, wave_speed, inner=inner) for new in paces]
     tell = progress or (lambda share: None)
-    found = design_within(task, limits, lambda x: tell(SEARCH * x))
+    outcomes = [
+        design_within(task, limits, lambda x, k=k: tell(SEARCH * (k + x) / len(tasks))) for k, task in enumerate(tasks)
+    ]
+    best = min(range(len(tasks)), key=lambda k: _rank(outcomes[k], limits, objective))
+    task, found = tasks[best], outcomes[best]
     admit(found.side.scenario)
-    before = side(task, {}, lambda x: tell(SEARCH + (1.0 - SEARCH) * x))
+    before = side(base, {}, lambda x: tell(SEARCH + (1.0 - SEARCH) * x))
     betas = np.geomspace(1e-3, 1.0, BETAS) * wave_speed
     scores = _scores_over(betas, task, found.values)
+    motor_gains_kept = bool(inner_knobs(task.scenario)) and not inner
     return Design(
         objective=objective,
-        values=found.values,
+        values=paces[best] | found.values,
         before=before,
         after=found.side,
         missing=tuple(_missing(found.side, limits, found.limited)),
-        limited_by=tuple(_limited_by(task, found, motor_gains_kept=bool(motor_knobs) and not inner)),
+        limited_by=tuple(_limited_by(task, found, motor_gains_kept=motor_gains_kept)),
         betas=betas,
         reflections=np.array([score.reflection for score in scores]),
         followed=np.array([score.sound for score in scores]),
     )
+
+
+def _rank(found: Outcome, limits: Limits, objective: Objective) -> tuple[tuple[bool, bool, float], float]:
+    """What of two periods is the better: all that was demanded comes first, then the objective."""
+    score = found.side.score
+    return badness(found.side, limits), score.compliance if objective == "rejection" else score.reflection
 
 
 def _scores_over(betas: np.ndarray, task: Task, values: Values) -> list[Score]:

@@ -120,7 +120,7 @@ def design_within(task: Task, limits: Limits, progress: Callable[[float], None])
             break
         names |= set(over)
         task = replace(task, ceilings=_lowered(task.ceilings, now, over))
-    values, best = min(tried, key=lambda pair: _badness(pair[1], limits))
+    values, best = min(tried, key=lambda pair: badness(pair[1], limits))
     return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else ())
 
 
@@ -156,7 +156,7 @@ def _lowered(ceilings: Effort, now: Side, over: Excess) -> Effort:
     return Effort(**ceilings._asdict() | {name: x * getattr(now.score.effort, name) for name, x in shares.items()})
 
 
-def _badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:
+def badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:
     """Margins come first, then a run to its end, then the largest excess over a limit."""
     excess = max((x / limit for x, limit in limits.exceeded(found.trial).values()), default=1.0)
     return (not found.kept, not found.trial.completed, excess)

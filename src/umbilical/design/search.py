@@ -76,7 +76,7 @@ class Task:
     """What is searched for, and within which bounds.
 
     Attributes:
-        scenario: everything that is not a knob; its own gains say what "no worse" means.
+        scenario: everything that is not a knob.
         knobs: what may be chosen.
         objective: ``ringdown`` makes the ROV swallow waves; ``rejection`` keeps it still under force;
             ``both`` does the first without losing any of the second.
@@ -84,6 +84,7 @@ class Task:
         shortest: length of the cable from which on they shall be there, m.
         thrust: steady thrust at which the motors are linearised, N.
         ceilings: largest effort of the motors, in its own units.
+        present: whose gains and periods say what "no worse" means; the scenario if left out.
     """
 
     scenario: Scenario
@@ -93,6 +94,7 @@ class Task:
     shortest: float
     thrust: float
     ceilings: Effort = NO_CEILINGS
+    present: Scenario | None = None
 
     def judge(self, *, quick: bool = False) -> Judge:
         """Judge of a loop by the demands; of its effort where ceilings ask for that."""
@@ -161,7 +163,7 @@ class Scores:
     ) -> None:
         self._task, self._judge = task, judge
         self._generations, self._progress = generations, progress
-        self._before = self._judge.score(sampled_loop(task.scenario, task.thrust))
+        self._before = self._judge.score(sampled_loop(task.present or task.scenario, task.thrust))
         self._known: dict[bytes, Score] = {}
         self._done = 0
 

@@ -1,0 +1,54 @@
+"""A design may choose the control period: what fits is searched at each, and what does not is refused at once."""
+
+from __future__ import annotations
+
+import pytest
+
+import umbilical
+from umbilical.design.design import design
+from umbilical.design.paces import pace, paced
+from umbilical.design.score import Demands
+from umbilical.design.search import Task
+from umbilical.errors import ScenarioError
+
+RINGDOWN = umbilical.load("ringdown")
+BASE = Task(RINGDOWN, (), "ringdown", Demands(), 400.0, 50.0, present=RINGDOWN)
+WAVE_SPEED = 50.0
+
+
+def test_an_outer_period_stays_the_same_number_of_periods() -> None:
+    two = RINGDOWN.replace({"control.outer_period": 2e-3})
+    assert pace(two, 5e-4) == {"control.period": 5e-4, "control.outer_period": 1e-3}
+    assert pace(RINGDOWN, 5e-4) == {"control.period": 5e-4}
+
+
+def test_gains_that_are_kept_must_fit_and_those_that_are_chosen_need_room() -> None:
+    with pytest.raises(ScenarioError) as kept:
+        paced(BASE, pace(RINGDOWN, 0.05), WAVE_SPEED, inner=False)
+    assert "control.motor_loop.speed_gain" in {problem.key for problem in kept.value.problems}
+    with pytest.raises(ScenarioError) as cramped:
+        paced(BASE, pace(RINGDOWN, 0.05), WAVE_SPEED, inner=True)
+    assert {"the lower end below the upper"} <= {problem.bound for problem in cramped.value.problems}
+
+
+def test_bounds_follow_the_period() -> None:
+    ends = [
+        {knob.key: (knob.low, knob.high) for knob in paced(BASE, pace(RINGDOWN, p), WAVE_SPEED, inner=True).knobs}
+        for p in (1e-3, 5e-4)
+    ]
+    key = "control.motor_loop.filter_frequency"
+    assert ends[1][key][1] == pytest.approx(2.0 * ends[0][key][1])
+
+
+@pytest.mark.slow
+def test_the_better_of_two_periods_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a short search, the same one for both."""
+    monkeypatch.setattr("umbilical.design.rounds.GENERATIONS", 5)
+    both = design(RINGDOWN, "ringdown", periods=[1e-3, 5e-4])
+    alone = {p: design(RINGDOWN.replace(pace(RINGDOWN, p)), "ringdown") for p in (1e-3, 5e-4)}
+    better = min(alone, key=lambda p: alone[p].after.score.reflection)
+    assert both.values["control.period"] == better
+    assert both.after.score.reflection == pytest.approx(alone[better].after.score.reflection, rel=0.05)
+    assert both.before.scenario.control.period == RINGDOWN.control.period
+    assert "period = " in both.patch()
+    umbilical.load("ringdown", both.values)
