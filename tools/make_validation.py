@@ -2,7 +2,8 @@
 
 It runs the whole of `umbilical verify`. The page shows of each case the check that comes nearest to its tolerance.
 Its numbers are not compared with anything afterwards, for the last digits differ between machines; that its cases are
-those of the command and that all hold is (tests/contract/test_validation.py).
+those of the command, each with as many checks, and that all hold is (tests/contract/test_validation.py, and the test of
+every case).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from umbilical.verify.page import numbers
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 TEXT = Path(__file__).with_suffix(".md")
 PICTURE = "convergence.svg"
-HEAD = ("case", "against", "nearest to its tolerance", "ours", "reference", "error", "allowed, and why")
+HEAD = ("case", "checks", "against", "nearest to its tolerance", "ours", "reference", "error", "allowed, and why")
 
 
 def text(found: Verification) -> str:
@@ -44,11 +45,12 @@ def row(result: Result) -> tuple[str, ...]:
     """A case, by the check that comes nearest to its tolerance."""
     against = f"`{result.case.reference}`, {result.case.source}"
     if result.skipped:
-        return result.case.name, against, f"**skipped**: {result.skipped}", "", "", "", ""
+        return result.case.name, "0", against, f"**skipped**: {result.skipped}", "", "", "", ""
     check = max(result.checks, key=nearness)
     verdict = "" if result.holds else " **FAILS**"
     ours, expected, error, tolerance = numbers(check)
-    return result.case.name, against, check.quantity, ours, expected, error + verdict, f"{tolerance}: {check.why}"
+    name, count = result.case.name, str(len(result.checks))
+    return name, count, against, check.quantity, ours, expected, error + verdict, f"{tolerance}: {check.why}"
 
 
 def nearness(check: Check) -> float:

@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from umbilical.verify.cases import Case
+
+PAGE = (Path(__file__).parents[2] / "docs" / "validation.md").read_text(encoding="utf-8")
+
+
+def checks_on_the_page() -> dict[str, int]:
+    """How many checks docs/validation.md says that each case has."""
+    return {name: int(count) for name, count in re.findall(r"^\| (.*?) \| (\d+) \|", PAGE, flags=re.MULTILINE)}
 
 
 def each(cases: Iterable[Case]) -> Any:
@@ -28,3 +37,4 @@ def assert_holds(case: Case) -> None:
         if not c.holds
     ]
     assert not misses, "\n".join([case.name, *misses])
+    assert checks_on_the_page()[case.name] == len(result.checks), "run tools/make_validation.py"
