@@ -33,7 +33,7 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
         ("moving end, [pht]*", "moving end, ROV held*", "manufactured*", "power balance*"),
     ),
     "dropped acceleration of the winch": (broken.dropped_acceleration, ("manufactured*",)),
-    "dropped jerk": (broken.dropped_jerk, ("power balance*",)),
+    "dropped jerk": (broken.dropped_jerk, ("power balance, *[!d]", "power balance, *refined")),
     "a tenth more inertia of the motor": (
         another_scenario(broken.a_tenth_more("inertia")),
         (

@@ -19,7 +19,7 @@ def test_a_panel_for_each_case_and_kind_of_refinement() -> None:
     panels = plot_convergence(CURVES).axes
     assert [ax.get_title(loc="left") for ax in panels] == ["case one", "case one", "case two"]
     assert [ax.get_xlabel() for ax in panels] == ["element [m]", "step [s]", "step [s]"]
-    assert panels[0].get_legend_handles_labels()[1] == ["y", "Dy/Dt"]
+    assert panels[0].get_legend_handles_labels()[1] == ["y: 4", "Dy/Dt: 4"]
 
 
 def test_the_slope_is_the_stated_one() -> None:
