@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 REPORT = "report.html"
 KINDS = ("png", "pdf", "nc", "csv")
 """Files of every figure."""
+Drawn = tuple[dict[str, bytes], bytes]
+"""A figure's files by ending, and it as SVG."""
 
 
 class Shown(NamedTuple):
@@ -95,23 +98,35 @@ def evidence(runs: Runs, scans: Mapping[str, xarray.Dataset], progress: Progress
 
 
 def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:
-    """Runs of some experiments, by name."""
-    scenarios = [EXPERIMENTS[name].scenario() for name in names]
-    return dict(zip(names, in_parallel(simulate, scenarios, progress), strict=True))
+    """Runs of some experiments, by name; the longest begin first, so that no core waits for one in the end."""
+    scenarios = {name: EXPERIMENTS[name].scenario() for name in names}
+    longest_first = sorted(names, key=lambda name: -scenarios[name].duration)
+    found = dict(
+        zip(longest_first, in_parallel(simulate, [scenarios[n] for n in longest_first], progress), strict=True)
+    )
+    return {name: found[name] for name in names}
 
 
 def show_all(
     pictures: Sequence[Picture], runs: Runs, slices: Mapping[str, xarray.Dataset], processes: int, progress: Progress
 ) -> tuple[Shown, ...]:
     """All figures with their data; drawing takes as long as running, so several processes share it."""
-    names, data = [p.name for p in pictures], [p.data(runs, slices) for p in pictures]
     shown = []
     with worker_processes(processes) if processes > 1 else nullcontext() as pool:
-        drawn = pool.map(draw, names, data) if pool else map(draw, names, data)
-        for picture, of, files_of in zip(pictures, data, drawn, strict=True):
-            shown.append(Shown(picture, of, *files_of))
+        begin = pool.submit if pool else _at_once
+        begun = [(p, data := p.data(runs, slices), begin(draw, p.name, data)) for p in pictures]
+        for picture, data, drawn in begun:
+            contents, svg = drawn.result()
+            shown.append(Shown(picture, data, contents, svg))
             progress(len(shown) / len(pictures))
     return tuple(shown)
+
+
+def _at_once(function: Callable[..., Drawn], *arguments: Any) -> Future[Drawn]:
+    """Its result, without other processes."""
+    done: Future[Drawn] = Future()
+    done.set_result(function(*arguments))
+    return done
 
 
 def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> Shown:
@@ -120,7 +135,7 @@ def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> 
     return Shown(picture, data, *draw(picture.name, data))
 
 
-def draw(name: str, data: xarray.Dataset) -> tuple[dict[str, bytes], bytes]:
+def draw(name: str, data: xarray.Dataset) -> Drawn:
     """The files of a figure by ending, and the figure as SVG for the report."""
     figure = PICTURES[name].draw(data)
     figure.draw_without_rendering()
