@@ -135,3 +135,20 @@ def test_text_round_trip():
     study = small_study()
     assert admit_study(tomllib.loads(study.to_toml()), "again") == study
     assert study.hash == small_study().hash != small_study(seed=1).hash
+
+
+def test_a_misspelt_key_of_a_relative_factor_is_told_what_was_meant() -> None:
+    with pytest.raises(ScenarioError) as refused:
+        small_study(factors=[{"key": "payload.mas", "relative": True, "distribution": HALF_TO_DOUBLE}])
+    (problem,) = refused.value.problems
+    assert problem.key == "payload.mas"
+    assert "did you mean 'mass'" in problem.cure
+
+
+def test_a_relative_factor_of_what_is_no_number_is_refused() -> None:
+    with pytest.raises(ScenarioError) as refused:
+        small_study(factors=[{"key": "cable.wet_line_density", "relative": True, "distribution": HALF_TO_DOUBLE}])
+    assert "a number of the scenario" in refused.value.problems[0].bound
+
+
+HALF_TO_DOUBLE = {"kind": "uniform", "low": 0.5, "high": 2.0}

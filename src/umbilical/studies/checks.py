@@ -75,7 +75,9 @@ def _relative(study: Study) -> Iterator[Problem]:
         if factor.relative and not _multiplies(study, factor):
             bound = "a number of the scenario, and numbers drawn"
             cure = "drop `relative`, or name another key"
-            yield Problem(factor.key, "relative = true", bound, "a factor multiplies a number", cure)
+            wrong = Problem(factor.key, "relative = true", bound, "a factor multiplies a number", cure)
+            # Of a key that leads nowhere, the scenario itself says what was meant.
+            yield from _new_ones(study, {}, {factor.key: draw(factor.distribution, _MIDDLE)}) or (wrong,)
 
 
 def _multiplies(study: Study, factor: Factor) -> bool:
