@@ -67,6 +67,18 @@ def write(path: str | os.PathLike[str], content: bytes, *, force: bool = False) 
     return target
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and those on the way to it; one that is there is left as it is.
+
+    Raises:
+        OutputError: it cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: the folder cannot be made ({error.strerror})") from error
+
+
 def _refuse(target: Path, force: bool) -> None:
     if not target.parent.is_dir():
         raise OutputError(f"{target}: there is no folder {target.parent}; make it first")

@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 from umbilical.errors import OutputError
+from umbilical.files import make_folder
 
 PICTURES = ("png", "pdf", "svg")
 
@@ -39,10 +40,7 @@ def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
     Raises:
         OutputError: the folder cannot be made, or holds files of these names.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: the folder cannot be made ({error.strerror})") from error
+    make_folder(folder)
     there = [target.name for target in targets if target.exists()]
     if there and not force:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""

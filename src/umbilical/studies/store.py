@@ -37,7 +37,7 @@ class Store:
     def save(self, content: bytes, name: str) -> Path:
         """A file of the folder, whole or not at all; what is there already came from the same study."""
         path = self.folder / name
-        _make(path.parent)
+        files.make_folder(path.parent)
         return files.write(path, content, force=True)
 
 
@@ -56,7 +56,7 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
         OutputError: the folder cannot be made or written, is in use, or holds something already.
         FileError: what is there belongs to another study or was made by another version.
     """
-    _make(folder)
+    files.make_folder(folder)
     _refuse_strangers(folder)
     with _locked(folder):
         for part in [*folder.glob(_PARTS), *(folder / RUNS).glob(_PARTS)]:
@@ -128,13 +128,6 @@ def _refuse_strangers(folder: Path) -> None:
 def _is_lock(entry: Path) -> bool:
     """Our lock is an empty file."""
     return entry.name == LOCK and entry.is_file() and entry.stat().st_size == 0
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: cannot be made ({error.strerror})") from error
 
 
 def _clear(folder: Path) -> None:
