@@ -17,6 +17,7 @@ def test_some_figures_with_their_data(umbilical, tmp_path) -> None:
     assert outcome.code == 0
     document = outcome.document()
     assert document["claims"] == []
+    assert (document["verdict"], document["headline"]) == ("NOT_ASKED", "reproduced: 2 figures")
     assert list(document["files"]["figures"]) == ["fig9", "fig5"]
     names = {f"{name}.{kind}" for name in ("fig5", "fig9") for kind in reproduction.KINDS}
     assert {path.name for path in (tmp_path / "figures").iterdir()} == names
@@ -74,6 +75,7 @@ def test_the_whole_without_maps(umbilical, tmp_path, monkeypatch) -> None:
     document = outcome.document()
     assert {claim["id"] for claim in document["claims"]} >= {"C1", "C9", "A3"}
     assert document["not_as_published"] == []
+    assert document["verdict"] == "HOLDS"
     report = tmp_path / "paper" / "report.html"
     assert report.read_text(encoding="utf-8").count("<svg") == len(reproduction.choose([], maps=False))
 
@@ -83,6 +85,7 @@ def test_the_whole_without_maps(umbilical, tmp_path, monkeypatch) -> None:
     outcome = umbilical("reproduce", "--no-maps", "--check", "--out", tmp_path / "paper", "--force")
     assert outcome.code == 7
     assert "not as published: C1.tip_peak" in outcome.err
+    assert "1 number or verdict is NOT as published" in outcome.out.splitlines()[0]
     assert "C1.tip_peak" in report.read_text(encoding="utf-8")
 
 

@@ -33,12 +33,13 @@ def test_all_hold(umbilical, few):
     done = umbilical("verify", "--quick")
     assert done.code == 0
     assert "motor, steady state: sgn(G)" in done.out
-    assert "6 checks in 2 cases: 6 hold" in done.out
+    assert done.out.startswith("6 checks in 2 cases: 6 hold\n")
 
 
 def test_json_is_one_object_with_every_number(umbilical, few):
     document = umbilical("verify", "--json").document()
     assert document["holds"] is True
+    assert (document["verdict"], document["exit_code"]) == ("HOLDS", 0)
     row = document["checks"][0]
     assert {
         "case",
@@ -64,11 +65,20 @@ def test_one_that_does_not_hold_has_its_exit_code(umbilical, monkeypatch, find):
 
 
 def test_a_case_that_lacks_a_package_is_skipped_and_says_so(umbilical, monkeypatch):
-    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Other": (_case(wrong, needs="no_such_package"),)})
+    skipped = _case(wrong, needs="no_such_package")
+    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": motor.CASES[:1], "Other": (skipped,)})
     done = umbilical("verify")
     assert done.code == 0
     assert "skipped: needs no_such_package" in done.out
-    assert "1 case skipped" in done.out
+    assert "1 case skipped" in done.out.splitlines()[0]
+
+
+def test_where_nothing_could_be_checked_nothing_is_verified(umbilical, monkeypatch):
+    skipped = _case(wrong, needs="no_such_package")
+    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Other": (skipped,)})
+    done = umbilical("verify")
+    assert done.code == 7
+    assert done.out.splitlines()[0].startswith("UNRESOLVED, nothing was checked")
 
 
 def test_quick_leaves_out_what_takes_long(umbilical, monkeypatch):

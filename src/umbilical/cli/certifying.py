@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
+from umbilical.cli.conclusion import Conclusion, conclude
 from umbilical.cli.running import load_changed
-from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, shown_unit, table
+from umbilical.cli.speech import shown_unit, table
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.quantities import CERTIFICATE
 
@@ -48,12 +49,13 @@ def certify(
         check_target(plot, PICTURES, force=force)
     found, checked = _work(chosen, audit)
     files = {"plot": str(_draw(found, checked, plot, force))} if plot else {}
-    if as_json:
-        say_json(_document(found, checked, files))
-    else:
-        say("\n".join([*_report(found), *(_audit_report(checked) if checked else ()), *_written(files)]))
-    broken = checked is not None and max(checked.excess, checked.cable_excess) > 1.0 + SCATTER
-    return 0 if found.holds and not broken else DOES_NOT_HOLD
+    return conclude(
+        conclusion(found, checked),
+        text=lambda: "\n".join([*_report(found), *(_audit_report(checked) if checked else ())]),
+        document=lambda: _document(found, checked),
+        files=files,
+        as_json=as_json,
+    )
 
 
 def _work(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
@@ -76,13 +78,36 @@ def _draw(certificate: Certificate, audit: Audit | None, plot: Path, force: bool
     return save_figure(plot_certificate(certificate, audit), plot, force=force)
 
 
-def _written(files: dict[str, str]) -> list[str]:
-    return [f"  {role}: {path}" for role, path in files.items()]
+def conclusion(certificate: Certificate, audit: Audit | None = None) -> Conclusion:
+    """Whether a rate is proved and, where that was asked, no simulation of the ideal loop refutes it."""
+    name = certificate.scenario.name
+    if not certificate.holds:
+        return Conclusion("DOES_NOT_HOLD", f"{name}: not certified: {'; '.join(_missing(certificate))}")
+    proved = f"{name}: certified, V decays at {certificate.rate:.4g} 1/s or faster"
+    if audit is None:
+        return Conclusion("HOLDS", proved)
+    if (status := audit.ideal_run.status.name) != "COMPLETED":
+        return Conclusion("UNRESOLVED", f"{proved}, but UNRESOLVED: the simulation of the ideal loop ended {status}")
+    excess = max(audit.excess, audit.cable_excess)
+    if not excess <= 1.0 + SCATTER:
+        return Conclusion(
+            "DOES_NOT_HOLD", f"{proved}, but REFUTED: in simulation V reaches {excess:.4g} times its bound"
+        )
+    return Conclusion("HOLDS", f"{proved}; in simulation it stays below its bound")
+
+
+def _missing(certificate: Certificate) -> list[str]:
+    """What fails; if nothing does, what could not be proved."""
+    failed = [
+        f"{i.name} ({i.equation}) fails by {-i.margin:.3g} {shown_unit(i.unit)}".rstrip() for i in certificate.broken
+    ]
+    return failed or [f"{n} not proved from {a:.6g} to {b:.6g} s" for n, a, b in certificate.proof.open[:1]]
 
 
 def _report(certificate: Certificate) -> Iterator[str]:
-    """The verdict, the conditions, what follows, and what it does not speak about."""
-    yield _verdict(certificate)
+    """What to do, the conditions, what follows, and what it does not speak about."""
+    for cure in certificate.cures:
+        yield f"  cure: {cure.cure} ({cure.key} = {cure.value}; certified: {cure.bound})"
     yield table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
     yield ""
     yield table(
@@ -98,21 +123,6 @@ def _report(certificate: Certificate) -> Iterator[str]:
     yield table([_row(inequality) for inequality in certificate.paper], right=[2, 4, 6])
     yield ""
     yield f"  outside the certificate: {'; '.join(certificate.limits) or 'nothing'}"
-
-
-def _verdict(certificate: Certificate) -> str:
-    name = certificate.scenario.name
-    if certificate.holds:
-        return f"{name}: certified, V decays at {certificate.rate:.4g} 1/s or faster"
-    failed = [
-        f"{i.name} ({i.equation}) fails by {-i.margin:.3g} {shown_unit(i.unit)}".rstrip() for i in certificate.broken
-    ]
-    open_ones = (
-        [f"{n} not proved from {a:.6g} to {b:.6g} s" for n, a, b in certificate.proof.open[:1]] if not failed else []
-    )
-    lines = [f"{name}: not certified: {'; '.join(failed + open_ones)}"]
-    lines += [f"  cure: {cure.cure} ({cure.key} = {cure.value}; certified: {cure.bound})" for cure in certificate.cures]
-    return "\n".join(lines)
 
 
 def _row(inequality: Inequality) -> tuple[str, ...]:
@@ -186,7 +196,7 @@ def _audit_report(audit: Audit) -> Iterator[str]:
     yield f"  the ideal loop's V is the integral of its exact rate within {audit.identity:.1e} of its largest value"
 
 
-def _document(certificate: Certificate, audit: Audit | None, files: dict[str, str]) -> dict[str, Any]:
+def _document(certificate: Certificate, audit: Audit | None) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
     from umbilical.analysis.certificate import largest_bounds
 
@@ -206,7 +216,6 @@ def _document(certificate: Certificate, audit: Audit | None, files: dict[str, st
         "cures": [asdict(cure) for cure in certificate.cures],
         "limits": certificate.limits,
         "audit": _audit_document(audit) if audit else None,
-        "files": files,
     }
 
 

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
+from umbilical.cli.conclusion import Conclusion, conclude
 from umbilical.cli.progress import bar
 from umbilical.cli.running import load_changed
-from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.speech import table
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -52,7 +53,8 @@ def margins(
       umbilical margins paper --lengths 100,300,500 --plot margins.png
       umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
 
-    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 7: not stable at every length.
+    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 7: not stable at every length,
+    or unresolved: exact cable, grids and eigenvalues do not say the same.
     """
     chosen = load_changed(scenario, changes or [])
     if plot:
@@ -63,11 +65,18 @@ def margins(
     with bar("margins") as advance:
         report = compute(chosen, _numbers(lengths), operating_thrust, elements=elements, progress=advance)
     files = _draw(report, plot, force)
-    if as_json:
-        say_json(document(report) | {"files": files})
-    else:
-        say("\n".join([text(report), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0 if report.stable else 7
+    return conclude(
+        conclusion(report), text=lambda: text(report), document=lambda: document(report), files=files, as_json=as_json
+    )
+
+
+def conclusion(report: MarginReport) -> Conclusion:
+    """Whether the loop is stable at every length, if the grids that were asked agree."""
+    state = "stable" if report.stable else "NOT STABLE"
+    if report.resolved is False:
+        return Conclusion("UNRESOLVED", f"{report.scenario.name}: UNRESOLVED, {_disagreement(report)}")
+    headline = f"{report.scenario.name}: {state} in linearised sampled operation"
+    return Conclusion("HOLDS" if report.stable else "DOES_NOT_HOLD", headline)
 
 
 def _numbers(words: str | None) -> list[float] | None:
@@ -142,21 +151,20 @@ def _one_length(j: Judgement) -> dict[str, Any]:
 
 
 def text(report: MarginReport) -> str:
-    """A report as people read it."""
-    head = f"{report.scenario.name}: {'stable' if report.stable else 'NOT STABLE'} in linearised sampled operation"
+    """What the verdict rests on, as people read it."""
     thrust = f"  motors linearised at a thrust of {report.operating_thrust:.4g} N"
-    lines = [head, thrust, table(rows(report), right=range(7))]
+    lines = [thrust, table(rows(report), right=range(7))]
     lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
     return "\n".join(lines + _grids(report))
 
 
 def _grids(report: MarginReport) -> list[str]:
-    """What the engine's own grids say at the longest length, and the verdict."""
+    """What the engine's own grids say at the longest length."""
     lines = [f"  {g.elements} elements: {_apart(g)}; up to {g.heard:.3g} rad/s" for g in report.grids]
     if report.check:
         lines.append(f"  {report.check.elements} elements, {_eigenvalues(report.check)}")
-    if report.resolved is not None:
-        lines.append(f"  verdict on the grids at the longest length: {_verdict(report)}")
+    if report.resolved:
+        lines.append("  at the longest length the grids agree with the exact cable")
     return lines
 
 
@@ -181,12 +189,12 @@ def _how_many(count: Counted) -> str:
     return f"{count.eigenvalues} to {most}" if count.undecided else f"{most}"
 
 
-def _verdict(report: MarginReport) -> str:
-    if report.resolved:
-        return "resolved"
+def _disagreement(report: MarginReport) -> str:
+    """Which two of exact cable, grids and eigenvalues say different things."""
+    exact = f"the exact cable says {'stable' if report.stable else 'not stable'}"
     if report.check and not report.check.agrees:
-        return "NOT RESOLVED: eigenvalues and Nyquist's count disagree on a grid; believe neither"
-    return "NOT RESOLVED: the grids and the exact cable disagree; it decides"
+        return f"eigenvalues and Nyquist's count disagree on {report.check.elements} elements; {exact}"
+    return f"the grids differ from the exact cable at the longest length; {exact}"
 
 
 def rows(report: MarginReport) -> list[tuple[str, ...]]:

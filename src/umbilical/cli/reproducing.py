@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
+from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.speech import tell
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
@@ -47,13 +48,25 @@ def reproduce(
         found = reproduction.reproduce(names, maps=maps, processes=default_jobs(), progress=advance)
     moved = deviations(found.findings, complete=maps) if found.findings else []
     written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
-    if as_json:
-        say_json(document(found, moved, written))
-    else:
-        say(summary(found, out, written))
     for one in moved:
         tell(f"not as published: {one}")
-    return DOES_NOT_HOLD if check and moved else 0
+    return conclude(
+        conclusion(found, moved, check=check),
+        text=lambda: summary(found, out, written),
+        document=lambda: document(found, moved, written),
+        as_json=as_json,
+    )
+
+
+def conclusion(found: Reproduction, moved: list[Deviation], *, check: bool) -> Conclusion:
+    """Whether every number is as published, where that was asked."""
+    made = f"reproduced: {len(found.findings)} claims, {len(found.shown)} figures"
+    if not found.findings:
+        return Conclusion("NOT_ASKED", f"reproduced: {len(found.shown)} figures")
+    count = "1 number or verdict is" if len(moved) == 1 else f"{len(moved)} numbers or verdicts are"
+    state = f"{count} NOT as published" if moved else "every number is as published"
+    decision = "NOT_ASKED" if not check else "DOES_NOT_HOLD" if moved else "HOLDS"
+    return Conclusion(decision, f"{made}; {state}")
 
 
 def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:

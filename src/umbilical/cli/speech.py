@@ -23,7 +23,7 @@ EXIT_CODES = {
     4: "a file cannot be written",
     5: "a controller failed",
     6: "an optional package is missing",
-    DOES_NOT_HOLD: "what was asked does not hold",
+    DOES_NOT_HOLD: "what was asked does not hold, or is unresolved",
     130: "interrupted; the result up to then is kept",
 }
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table
+from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.speech import table
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
@@ -26,7 +27,8 @@ def verify(
     """Compare this installation with closed forms, classical solutions and other codes.
 
     Every row: what is compared with what, ours, theirs, the error, the tolerance and why that tolerance. The exit
-    code is 0 when all hold and 7 when one does not. With --out: verification.md, .json and convergence.svg.
+    code is 0 when all hold and 7 when one does not, or none could be made. With --out: verification.md, .json and
+    convergence.svg.
 
     \b
     examples
@@ -43,11 +45,14 @@ def verify(
     with bar("verifying") as advance:
         found = verify_all(quick, progress=advance)
     files = _write(found, targets, force)
-    if as_json:
-        say_json(found.document() | {"files": files})
-    else:
-        say("\n".join([_text(found), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0 if found.holds else DOES_NOT_HOLD
+    return conclude(conclusion(found), text=lambda: _text(found), document=found.document, files=files, as_json=as_json)
+
+
+def conclusion(found: Verification) -> Conclusion:
+    """Whether every check holds; without a check there is nothing to say."""
+    if not any(result.checks for result in found.results):
+        return Conclusion("UNRESOLVED", f"UNRESOLVED, nothing was checked: {found.headline}")
+    return Conclusion("HOLDS" if found.holds else "DOES_NOT_HOLD", found.headline)
 
 
 def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:
@@ -75,7 +80,7 @@ def _text(found: Verification) -> str:
             lines += [f"    skipped: {result.skipped}"] if result.skipped else []
             lines.append(table([_row(check) for check in result.checks], right=(2, 3, 4, 5)))
         parts.append("\n".join(filter(None, lines)))
-    return "\n\n".join([*parts, found.headline])
+    return "\n" + "\n\n".join([*parts, found.headline])
 
 
 def _row(check: Check) -> tuple[str, ...]:
