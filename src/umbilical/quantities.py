@@ -184,6 +184,8 @@ METRICS: dict[str, Quantity] = {
     "motor_voltage_peak":      Quantity("V", "", "largest |motor voltage|, over all motors"),
     "motor_voltage_rms":       Quantity("V", "", "root mean square of the motor voltages"),
     "motor_current_peak":      Quantity("A", "", "largest |motor current|, over all motors"),
+    "saturated_share":         Quantity("1", "", "share of the control samples with the drive at its voltage limit, over the motors that have one"),
+    "thrust_gap":              Quantity("N", "", "root mean square of commanded minus delivered thrust"),
     "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of largest energy and gross work"),
     "grid_loss":               Quantity("1", "", "energy the grid took, over the larger of largest energy and gross work"),
 }

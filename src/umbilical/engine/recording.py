@@ -46,8 +46,9 @@ PER_MOTOR = (
 
 # Columns of Tally.measures, and its rows.
 QUARTER, MID, THREE_QUARTER, TIP, TIP_AFTER_FAULT = range(5)
-COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT = range(5, 10)
+COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT, GAP = range(5, 11)
 PEAK, SQUARES = range(2)
+LIMIT, AT_LIMIT = range(2)  # rows of Tally.drives
 STEEPEST = 1.0
 """Beyond this slope the model of small angles has ended, and the run with it."""
 
@@ -74,10 +75,11 @@ class Tally(NamedTuple):
     Attributes:
         probes: where y(l/4), y(l/2), y(3l/4) are read: element, and weights of its slopes in the displacement
             gained in it, shape (3, 6).
-        measures: largest size and sum of squares of each measure, shape (2, 10).
+        measures: largest size and sum of squares of each measure, shape (2, 11).
         slopes: largest |y_x| so far in each element, shape (n,).
         count: control samples so far, shape (1,).
         scales: f23 of each motor, which turns d2 into the disturbance its observer estimates.
+        drives: voltage limit of each motor, V, and its control samples at it, shape (2, motors).
     """
 
     probes: np.ndarray
@@ -85,6 +87,7 @@ class Tally(NamedTuple):
     slopes: np.ndarray
     count: np.ndarray
     scales: np.ndarray
+    drives: np.ndarray
 
 
 def make_log(samples: int, motors: int, elements: int) -> Log:
@@ -97,10 +100,11 @@ def make_log(samples: int, motors: int, elements: int) -> Log:
     )
 
 
-def make_tally(elements: int, scales: np.ndarray) -> Tally:
-    """Nothing seen yet."""
+def make_tally(elements: int, scales: np.ndarray, limits: np.ndarray) -> Tally:
+    """Nothing seen yet; f23 and voltage limit of each motor."""
     probes = np.array([[element, *weights] for element, weights in (probe(s, elements) for s in (0.25, 0.5, 0.75))])
-    return Tally(probes, np.zeros((2, 10)), np.zeros(elements), np.zeros(1, dtype=np.int64), scales)
+    drives = np.stack([limits, np.zeros(limits.size)])
+    return Tally(probes, np.zeros((2, 11)), np.zeros(elements), np.zeros(1, dtype=np.int64), scales, drives)
 
 
 def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
@@ -167,11 +171,14 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
         note(tally, TIP_AFTER_FAULT, tip)
     note(tally, COMMAND, decision.outer[THRUST_COMMAND])
     note(tally, THRUST, state.now[DELIVERED])
+    note(tally, GAP, decision.outer[THRUST_COMMAND] - state.now[DELIVERED])
     finite = np.isfinite(tip) and np.isfinite(state.ends[TIP_VELOCITY]) and np.isfinite(state.now[DELIVERED])
     for k in range(state.motors.shape[1]):
         note(tally, MOTOR_VOLTAGE, decision.motors[VOLTAGE, k])
         note(tally, MOTOR_SPEED, state.motors[ROTOR_SPEED, k])
         note(tally, MOTOR_CURRENT, state.motors[CURRENT, k])
+        if abs(decision.motors[VOLTAGE, k]) >= tally.drives[LIMIT, k]:
+            tally.drives[AT_LIMIT, k] += 1.0
         finite = finite and np.isfinite(state.motors[ROTOR_SPEED, k]) and np.isfinite(state.motors[CURRENT, k])
         finite = finite and np.isfinite(decision.motors[VOLTAGE, k])
     tally.count[0] += 1

@@ -35,6 +35,7 @@ from umbilical.engine.recording import (
     make_log,
     make_tally,
 )
+from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Clock, make_clock, stretch
 from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
@@ -116,6 +117,7 @@ def simulate(
     ending, sampling = _run(scenario, setup, progress)
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
+    notices += tuple(str(notice) for notice in saturation_notices(scenario, setup.record.tally))
     run = _assemble(scenario, setup, ending, notices, timing)
     if ending.error is not None:
         ending.error.run = run
@@ -199,10 +201,11 @@ def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
     first = faults.first_fault(scenario.faults)
     fault_update = clock.periods + 1 if first is None else int(np.ceil(first / clock.period - 1e-9))
     scales = np.array([motor_constants(m).f23 for m in scenario.motors])
+    limits = np.array([np.inf if m.voltage_limit is None else m.voltage_limit for m in scenario.motors])
     elements = scenario.grid.elements
     return loop.Record(
         make_log(samples, len(scenario.motors), elements),
-        make_tally(elements, scales),
+        make_tally(elements, scales, limits),
         every,
         fault_update,
         clock.periods,
@@ -297,11 +300,13 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
 
 
 def _all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
-    """Metrics of a run so far, without those of the power balance."""
+    """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
     metrics = _metrics(setup.record.tally, float(setup.world.state.ends[TIP_DISPLACEMENT]))
     if not scenario.faults:
         del metrics["tip_peak_after_fault"]
-    return metrics
+    if np.isnan(metrics["effort_rms"]):
+        del metrics["effort_rms"]
+    return metrics | saturation(scenario, setup.record.tally)
 
 
 def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
