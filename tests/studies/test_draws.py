@@ -46,6 +46,40 @@ def test_steps_begin_at_the_lowest_value_and_stay_below_the_highest(low, high, s
     assert {draw(Uniform(kind="uniform", low=low, high=high, step=step), share) for share in SHARES} == expected
 
 
+def intervals(distribution) -> dict[float, float]:
+    """Probability of each value, exactly: the shares at which the quantile function changes, found by bisection."""
+    found, below = {}, 0.0
+    while below < 1.0:
+        value, above = draw(distribution, np.nextafter(below, 1.0)), 1.0
+        if draw(distribution, 1.0) != value:
+            low = below
+            while above - low > 1e-12:
+                middle = (low + above) / 2.0
+                low, above = (middle, above) if draw(distribution, middle) == value else (low, middle)
+        found[value], below = above - below, above
+    return found
+
+
+@pytest.mark.parametrize(
+    ("distribution", "values"),
+    [
+        (Uniform(kind="uniform", low=0.0, high=2.0, step=1.0), [0.0, 1.0, 2.0]),
+        (Uniform(kind="uniform", low=0.0, high=2.9, step=1.0), [0.0, 1.0, 2.0]),
+        (Uniform(kind="uniform", low=0.0, high=1.0, step=0.1), [0.1 * k for k in range(11)]),
+        (Uniform(kind="uniform", low=-0.3, high=0.3, step=0.1), [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]),
+        (Uniform(kind="uniform", low=0.0, high=1e-12, step=2e-13), [0.0, 2e-13, 4e-13, 6e-13, 8e-13, 1e-12]),
+        (Uniform(kind="uniform", low=5.0, high=6.0, step=1.0), [5.0, 6.0]),
+        (Grid(kind="grid", low=1.0, high=7.0, count=7), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
+        (Choice(kind="choice", values=(3, 1, 2)), [3, 1, 2]),
+    ],
+)
+def test_single_values_are_exactly_as_likely_as_each_other(distribution, values):
+    """The first and the last bin too."""
+    found = intervals(distribution)
+    assert list(found) == pytest.approx(values, abs=1e-15)
+    assert list(found.values()) == pytest.approx([1.0 / len(values)] * len(values), abs=1e-9)
+
+
 @pytest.mark.parametrize("method", ["random", "latin", "sobol", "saltelli", "morris"])
 def test_a_design_is_the_same_again_and_another_with_another_seed(method):
     first, again, other = (points(method, 40, CONTINUUM, seed) for seed in (1, 1, 2))

@@ -2,7 +2,8 @@
 
 A sample may hold infinities, for what is worse than any number (a run that diverged), and not-a-numbers, for what is
 no possible system and is left out of every comparison. So order statistics are used, never means, and nothing is
-interpolated. Resampling has a fixed seed: the same samples have the same intervals.
+interpolated. Intervals are exact: for independent draws from whatever distribution they hold the truth at least as
+often as they say, for any number of draws.
 """
 
 from __future__ import annotations
@@ -13,13 +14,11 @@ import numpy as np
 
 LEVEL = 0.95
 """Confidence of every interval."""
-_RESAMPLES = 2000
-_SEED = 20221110
-_AT_ONCE = 2_000_000
+_TAIL = (1.0 - LEVEL) / 2.0
 
 
 class Estimate(NamedTuple):
-    """A number with the bounds of its 95 % confidence interval."""
+    """A number with the bounds of its 95 % confidence interval; an infinite bound is an open end."""
 
     value: float
     low: float
@@ -43,37 +42,60 @@ class Comparison(NamedTuple):
 
 
 def quantile(values: np.ndarray, share: float) -> Estimate:
-    """Quantile of a sample with its bootstrap interval.
+    """Quantile of a sample with its exact interval, which ends at two of the sample's values.
 
-    >>> quantile(np.arange(1.0, 102.0), 0.5).value
-    51.0
+    An end is open where the sample is too small: the 95 % quantile has an upper bound from 72 values on.
+
+    >>> quantile(np.arange(1.0, 102.0), 0.5)
+    Estimate(value=51.0, low=41.0, high=61.0)
+    >>> quantile(np.arange(1.0, 21.0), 0.95)
+    Estimate(value=19.0, low=17.0, high=inf)
     """
-    return _bootstrap(values[~np.isnan(values)], share)
+    ordered = np.sort(values[~np.isnan(values)])
+    if ordered.size == 0:
+        return Estimate(float("nan"), float("nan"), float("nan"))
+    low, high = ranks(share, ordered.size)
+    bounded = np.concatenate([[-np.inf], ordered, [np.inf]])
+    return Estimate(float(ordered[_rank(share, ordered.size)]), float(bounded[low]), float(bounded[high]))
+
+
+def ranks(share: float, size: int) -> tuple[int, int]:
+    """Ranks, from 1, of the two values of a sorted sample between which a quantile lies with at least 95 %.
+
+    As many values as a binomial number, of ``size`` and ``share``, lie below the quantile; 2.5 % at most are left out
+    on either side (Conover, Practical Nonparametric Statistics, 3.2). Rank 0 and rank ``size`` + 1 are open ends.
+
+    >>> ranks(0.5, 100), ranks(0.95, 71), ranks(0.95, 72)
+    ((40, 61), (63, 72), (64, 72))
+    """
+    from scipy.special import bdtr
+
+    below = bdtr(np.arange(size + 1), size, share)
+    return int(np.searchsorted(below, _TAIL)), int(np.searchsorted(below, 1.0 - _TAIL)) + 1
 
 
 def exceedance(values: np.ndarray, limit: float) -> Estimate:
-    """Probability that a value exceeds a limit, with its Wilson interval.
-
-    Wilson's interval (1927) keeps its confidence for probabilities near 0 and 1, where the usual one has no width.
+    """Probability that a value exceeds a limit, with its exact interval.
 
     >>> exceedance(np.zeros(100), 1.0).value, round(exceedance(np.zeros(100), 1.0).high, 3)
-    (0.0, 0.037)
+    (0.0, 0.036)
     """
     sound = values[~np.isnan(values)]
     return share(int(np.count_nonzero(sound > limit)), sound.size)
 
 
 def share(count: float, of: int) -> Estimate:
-    """A share with its Wilson interval; all of it open where nothing was seen."""
-    from scipy.special import ndtri
+    """A share with the interval of Clopper and Pearson (1934); all of it open where nothing was seen.
+
+    Halves may be counted, for ties: the bounds grow with the count, and lie between those of its neighbours.
+    """
+    from scipy.special import betaincinv
 
     if of == 0:
         return Estimate(float("nan"), 0.0, 1.0)
-    z, p = float(ndtri(0.5 + LEVEL / 2.0)), count / of
-    centre, spread = p + z * z / (2 * of), z * float(np.sqrt(p * (1 - p) / of + z * z / (4 * of * of)))
-    scale = 1.0 + z * z / of
-    low, high = (centre - spread) / scale, (centre + spread) / scale
-    return Estimate(float(p), low if count > 0 else 0.0, high if count < of else 1.0)
+    low = float(betaincinv(count, of - count + 1, _TAIL)) if count > 0 else 0.0
+    high = float(betaincinv(count + 1, of - count, 1.0 - _TAIL)) if count < of else 1.0
+    return Estimate(count / of, low, high)
 
 
 def compare(values: np.ndarray, reference: np.ndarray) -> Comparison:
@@ -90,25 +112,7 @@ def compare(values: np.ndarray, reference: np.ndarray) -> Comparison:
         ratio = np.where(equal, 1.0, one / other)
         difference = np.where(equal, 0.0, one - other)
     wins = float(np.count_nonzero(one < other) + 0.5 * np.count_nonzero(equal))
-    return Comparison(one.size, _bootstrap(ratio, 0.5), _bootstrap(difference, 0.5), share(wins, one.size))
-
-
-def _bootstrap(sample: np.ndarray, share: float) -> Estimate:
-    """An order statistic with its percentile bootstrap interval (Efron)."""
-    if sample.size == 0:
-        return Estimate(float("nan"), float("nan"), float("nan"))
-    ordered = np.sort(sample)
-    rank = _rank(share, ordered.size)
-    generator = np.random.default_rng(_SEED)
-    found: list[np.ndarray] = []
-    at_once = max(1, _AT_ONCE // ordered.size)
-    for begin in range(0, _RESAMPLES, at_once):
-        size = (min(at_once, _RESAMPLES - begin), ordered.size)
-        drawn = generator.integers(0, ordered.size, size, dtype=np.int32)
-        found.append(np.partition(drawn, rank, axis=1)[:, rank])  # the order of places is that of values
-    places = np.sort(np.concatenate(found))
-    low, high = (places[_rank(level, places.size)] for level in ((1 - LEVEL) / 2, (1 + LEVEL) / 2))
-    return Estimate(float(ordered[rank]), float(ordered[low]), float(ordered[high]))
+    return Comparison(one.size, quantile(ratio, 0.5), quantile(difference, 0.5), share(wins, one.size))
 
 
 def _rank(share: float, size: int) -> int:

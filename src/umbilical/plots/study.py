@@ -61,9 +61,13 @@ def _in_words(result: StudyResult, metric: str, arm: str) -> str:
 
 
 def _interval(ax: Axes, found: Estimate, share: float, colour: str) -> None:
-    """A bar from one end of an interval to the other, where it has both."""
-    if np.isfinite(found.low) and np.isfinite(found.high):
-        ax.plot([found.low, found.high], [share, share], "|-", color=colour, linewidth=2.5, markersize=7)
+    """A bar from one end of an interval to the other; an open end is an arrow at the estimate."""
+    if not np.isfinite(found.value) or np.isnan(found.low):
+        return
+    ends = [end if np.isfinite(end) else found.value for end in found[1:]]
+    ax.plot(ends, [share, share], color=colour, linewidth=2.5)
+    for place, end, arrow in zip(ends, found[1:], "<>", strict=True):
+        ax.plot(place, share, "|" if np.isfinite(end) else arrow, color=colour, markersize=7)
 
 
 def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None = None) -> Axes:

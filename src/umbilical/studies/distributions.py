@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import singledispatch
-from math import exp, floor, log
+from math import exp, floor, log, log10
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
@@ -11,13 +11,15 @@ from pydantic import Field
 from umbilical.scenario.base import Number, Record
 
 _ROUNDING = 1e-12
+_DECIMALS = 12
+"""Of a step, or of 1 where a step is larger: beyond them is round-off."""
 
 Drawn = float | int | str | bool
 Entry = Annotated[float, Field(ge=-1e12, le=1e12)] | int | str | bool
 
 
 class Uniform(Record):
-    """Every value between two bounds is as likely as any other."""
+    """Every value between two bounds is as likely as any other; with a step, every one of its values."""
 
     kind: Literal["uniform"]
     low: Number = Field(description="smallest value")
@@ -90,8 +92,8 @@ def _(distribution: Uniform, share: float) -> Drawn:
     low, span, step = distribution.low, distribution.high - distribution.low, distribution.step
     if step is None:
         return low + share * span
-    most = floor(span / step * (1.0 + _ROUNDING))  # 0.3 / 0.1 is a little below 3
-    return round(low + min(round(share * span / step), most) * step, 12)
+    steps = floor(span / step * (1.0 + _ROUNDING))  # 0.3 / 0.1 is a little below 3
+    return round(low + _place(share, steps + 1) * step, _DECIMALS - min(floor(log10(step)), 0))
 
 
 @_quantile.register

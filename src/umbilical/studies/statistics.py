@@ -81,12 +81,13 @@ def reasons(result: StudyResult, arm: str) -> list[Reason]:
 def told(found: Estimate, digits: int = 4, unit: str = "") -> str:
     """An estimate in words; without its interval where it has none, a dash where it is nothing.
 
-    >>> told(Estimate(0.5, 0.25, 1.0)), told(Estimate(50.0, float("nan"), float("nan")), unit=" %")
-    ('0.5 (0.25 to 1)', '50 %')
+    >>> told(Estimate(0.5, 0.25, float("inf"))), told(Estimate(50.0, float("nan"), float("nan")), unit=" %")
+    ('0.5 (0.25 to open)', '50 %')
     """
     if np.isnan(found.value):
         return "-"
-    interval = "" if np.isnan(found.low) else f" ({found.low:.{digits}g} to {found.high:.{digits}g})"
+    low, high = (f"{end:.{digits}g}" if np.isfinite(end) else "open" for end in found[1:])
+    interval = "" if np.isnan(found.low) else f" ({low} to {high})"
     return f"{found.value:.{digits}g}{unit}{interval}"
 
 
