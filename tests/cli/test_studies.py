@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,8 @@ import pytest
 from tests.support.studies import small_study
 from umbilical import load, simulate
 from umbilical.cli.study_report import study_document
+from umbilical.studies.engines import threads
+from umbilical.studies.load import load_study
 from umbilical.studies.results import open_study
 from umbilical.studies.rows import STATUSES
 from umbilical.studies.sweep import sweep
@@ -57,6 +60,7 @@ def test_a_sweep_of_which_nothing_completes_says_so_and_why(umbilical, study, tm
     done = umbilical("sweep", study, *words, "--out", tmp_path / "out")
     assert done.code == 7
     assert "6 REFUSED" in done.out
+    assert done.out.startswith("paper-robustness: 6 members in 1 arms, NOT ONE COMPLETED in any arm;")
     assert "no member completed" in done.out
     stored = tmp_path / "out" / "study.nc"
     document = umbilical("show", stored, "--json").document()
@@ -64,6 +68,70 @@ def test_a_sweep_of_which_nothing_completes_says_so_and_why(umbilical, study, tm
     assert document["limits"]["tip_peak"]["one"]["status"] == "none"
     refused = umbilical("plot", stored, "--out", tmp_path / "a.png")
     assert (refused.code, "no member completed" in refused.err) == (2, True)
+
+
+def test_an_arm_that_is_lost_whole_is_in_the_first_line_and_in_the_exit_code(umbilical, study, tmp_path):
+    """Diverged members have metrics, and yet nothing was measured."""
+    loose = '[{name = "one"}, {name = "runs away", changes = {"environment.payload_force.1.value" = 1e8}}]'
+    words = ["--set", f"arms={loose}", "--set", "campaigns=[]", "--set", "scenario.duration=0.5", "--out"]
+    done = umbilical("sweep", study, *words, tmp_path / "text")
+    assert done.code == 7
+    assert "NOT ONE COMPLETED in runs away;" in done.out.splitlines()[0]
+    document = umbilical("sweep", study, *words, tmp_path / "json", "--json").document()
+    assert document["none_completed"] == ["runs away"]
+    assert document["endings"]["runs away"]["DIVERGED"] == 6
+    assert document["metrics"]["tip_peak"]["runs away"]["median"]["status"] == "infinite"
+
+
+CODE = """
+import pathlib, sys
+pathlib.Path("imported").touch()
+from umbilical import Command
+class Spring:
+    period = 1e-3
+    def start(self, measurement): return None
+    def update(self, t, measurement, state): return Command(thrust=-100.0 * measurement.tip_displacement), state
+def spring(scenario): return Spring()
+"""
+
+
+@pytest.fixture
+def with_code(tmp_path, monkeypatch) -> Path:
+    """A study with a controller, in the folder one is in."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.path", [*sys.path])
+    monkeypatch.delitem(sys.modules, "springs", raising=False)
+    (tmp_path / "springs.py").write_text(CODE)
+    tuning = {"arm": "one", "gains": [{"key": "control.law.damping_gain", "low": 1.0, "high": 2.0}], "trials": 1}
+    objectives = {"objectives": [{"metric": "tip_peak"}]}
+    arms = [{"name": "one", "controller": "springs:spring"}]
+    study = small_study(members=2, scenario__duration=0.02, campaigns=[], arms=arms, tuning={**tuning, **objectives})
+    (tmp_path / "mine.toml").write_text(study.to_toml())
+    return tmp_path / "mine.toml"
+
+
+@pytest.mark.parametrize("command", ["sweep", "tune"])
+def test_code_of_a_study_is_not_imported_unless_it_is_trusted(umbilical, with_code, command):
+    done = umbilical(command, with_code, "--out", "out")
+    assert done.code == 2
+    assert "--trust" in done.err
+    for other in ("show", "member"):
+        assert umbilical(other, with_code, *([1] if other == "member" else [])).code == 0
+    assert not Path("imported").exists()
+    assert umbilical(command, with_code, "--out", "out", "--trust", "--jobs", 1).code == 0
+    assert Path("imported").exists()
+
+
+def test_code_is_never_imported_from_a_result(umbilical, with_code):
+    sweep(load_study(with_code), "out", trust=True, engine=threads(1))
+    Path("imported").unlink()
+    del sys.modules["springs"]
+    for command in ("sweep", "tune"):
+        done = umbilical(command, "out/study.nc", "--trust", "--out", "again")
+        assert (done.code, "never imported from a result" in done.err) == (2, True)
+    assert umbilical("show", "out/study.nc").code == umbilical("member", "out/study.nc", 1).code == 0
+    assert umbilical("plot", "out/study.nc", "--out", "a.png").code == 0
+    assert not Path("imported").exists()
 
 
 def test_what_is_asked_of_a_result_is_in_its_json_too(umbilical, result):

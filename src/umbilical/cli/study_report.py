@@ -30,14 +30,23 @@ _REASONS = 3
 def report(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
     """Endings, distributions, comparisons with an arm (the first), limits and the worst members of each arm."""
     study, chosen = result.study, metrics or _usual(result)
-    size = result.data.sizes["member"]
-    parts = [f"{study.name}: {size} members in {len(result.arms)} arms, {study.hash[:12]}", study.description]
+    parts = [_headline(result), study.description]
     parts += [_endings(result), _reasons(result)]
     for metric in chosen:
         parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
     parts += [_exceedances(result)] if study.limits else []
     parts += [_worst(result, chosen[0]), statistics.caveat(study.design)] if chosen else [NONE_COMPLETED]
     return "\n\n".join(filter(None, parts))
+
+
+def _headline(result: StudyResult) -> str:
+    """How much completed comes first: what did not is no measurement."""
+    size, arms, lost = result.data.sizes["member"], len(result.arms), result.lost
+    least = min(found["COMPLETED"] for found in endings(result).values())
+    verdict = "all completed" if least == size else f"{least} completed{' in the worst of them' * (arms > 1)}"
+    if lost:
+        verdict = f"NOT ONE COMPLETED in {'any arm' if len(lost) == arms else ', '.join(lost)}"
+    return f"{result.study.name}: {size} members in {arms} arms, {verdict}; {result.study.hash[:12]}"
 
 
 def _usual(result: StudyResult) -> tuple[str, ...]:
@@ -151,6 +160,7 @@ def study_document(
         "study_hash": result.study.hash,
         "members": result.data.sizes["member"],
         "endings": endings(result),
+        "none_completed": list(result.lost),
         "reasons": {arm: [r._asdict() for r in statistics.reasons(result, arm)[:_REASONS]] for arm in result.arms},
         "metrics": {
             metric: {arm: _numbers(result, metric, arm, first) for arm in result.arms}

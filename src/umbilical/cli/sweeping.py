@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
+from umbilical.errors import FileError
+
+TRUST = Option("--trust", help="Import the Python controllers that the study names, which runs their code.")
 
 if TYPE_CHECKING:
     from umbilical.studies.engines import Engine
@@ -25,6 +28,7 @@ def sweep(
     ] = None,
     processes: Annotated[bool, Option("--processes", help="Processes instead of threads.")] = False,
     dask: Annotated[str | None, Option("--dask", metavar="ADDRESS|local", help="Workers of a Dask cluster.")] = None,
+    trust: Annotated[bool, TRUST] = False,
     resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
     force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
@@ -39,20 +43,24 @@ def sweep(
       umbilical sweep my-study.toml --dask tcp://host:8786 --out far --resume
 
     Killed at any moment it loses at most the members under way; the same command with --resume completes to the same
-    bytes. The result, DIR/study.nc, does not depend on how many worked, nor where. Where not one member completed,
-    the exit code is 7.
+    bytes. The result, DIR/study.nc, does not depend on how many worked, nor where. Where not one member of an arm
+    completed, the exit code is 7. Controllers in Python that a study names are imported with --trust only, and never
+    from a result.
     """
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.cli.study_report import report, study_document
     from umbilical.studies.sweep import sweep as run
 
     chosen = load_changed_study(study, changes or [])
+    refuse_code_of_results(study, chosen)
     folder = out or Path(chosen.name)
     engine = _engine(chosen, jobs, processes, dask)
     announce_compilation()
     try:
         with bar(f"running {chosen.name}") as advance:
-            found = run(chosen, folder, engine=engine, resume=resume, force=force, progress=advance, tell=tell)
+            found = run(
+                chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, tell=tell
+            )
     except KeyboardInterrupt:
         tell(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
@@ -61,7 +69,20 @@ def sweep(
         say_json(study_document(found, where))
     else:
         say(f"{report(found)}\n\nresult: {where['result']}")
-    return 0 if found.metrics else DOES_NOT_HOLD
+    return DOES_NOT_HOLD if found.lost else 0
+
+
+def refuse_code_of_results(source: str, study: Study) -> None:
+    """A result says which code was run; whoever opens it has not read that code.
+
+    Raises:
+        FileError: the study of a result file names Python controllers.
+    """
+    if Path(source).suffix == ".nc" and (named := [arm.controller for arm in study.arms if arm.controller]):
+        raise FileError(
+            f"{source}: its study names the Python controllers {', '.join(named)}, which are never imported from a "
+            "result; run the study's own file with --trust"
+        )
 
 
 def load_changed_study(source: str, changes: list[str]) -> Study:

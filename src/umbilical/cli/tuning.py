@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from typer import Argument, Option
 
 from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table, tell
+from umbilical.cli.sweeping import TRUST, load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ def tune(
     picture: Annotated[
         Path | None, Option("--plot", metavar="FILE", help="Draw the front: a .png, .pdf or .svg.")
     ] = None,
+    trust: Annotated[bool, TRUST] = False,
     resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
     force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
@@ -49,12 +51,12 @@ def tune(
     Where no gains keep every condition, the exit code is 7.
     """
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.cli.sweeping import load_changed_study
     from umbilical.studies.engines import default_jobs
     from umbilical.studies.sweep import default_engine
     from umbilical.studies.tune import tune as search
 
     chosen = load_changed_study(study, changes or [])
+    refuse_code_of_results(study, chosen)
     if picture:
         check_target(picture, PICTURES, force=force or resume)
     folder = out or Path(f"{chosen.name}-tuned")
@@ -63,7 +65,14 @@ def tune(
     try:
         with bar(f"tuning {chosen.name}") as advance:
             found = search(
-                chosen, folder, optimiser=optimiser, engine=engine, resume=resume, force=force, progress=advance
+                chosen,
+                folder,
+                optimiser=optimiser,
+                engine=engine,
+                trust=trust,
+                resume=resume,
+                force=force,
+                progress=advance,
             )
     except KeyboardInterrupt:
         tell(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")

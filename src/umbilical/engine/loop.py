@@ -171,7 +171,9 @@ class Python:
             if update == 0:
                 self._state = self._controller.start(measurement)
             command, self._state = self._controller.update(t, measurement, self._state)
-        except Exception as error:
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # sys.exit() of a controller ends its run, not the program around it
             name = type(self._controller).__name__
             raise ControllerError(f"{name} failed at t = {t:g} s: {type(error).__name__}: {error}") from error
         check_command(command, world, t, can_drive=self._drive.motors.driven)

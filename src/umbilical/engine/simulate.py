@@ -147,6 +147,20 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
     return Outcome(ending.status, ending.reason, ending.time, metrics)
 
 
+def rehearse(scenario: Scenario, controller: Controller) -> None:
+    """Take the first two updates of a controller in an admitted scenario, and forget them.
+
+    Raises:
+        ScenarioError, ControllerError: as :func:`simulate`.
+    """
+    setup = set_up(scenario, controller, stored=False)
+    count = min(round(controller.period / scenario.control.period) + 1, setup.clock.periods)
+    part = stretch(setup.clock, 0, count)
+    inputs = Outside(scenario).sample(part.steps)
+    inputs.refresh[0] = True
+    setup.decider.run(inputs, part.first, setup.dice.draw(count), 0)
+
+
 def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: bool = True) -> Setup:
     """The plant at rest with its sensors, record and controller, before the first step.
 

@@ -77,12 +77,18 @@ class StudyResult:
         return self.data["status"].sel(arm=arm).values == STATUSES.index(status)
 
     def values(self, metric: str, arm: str) -> np.ndarray:
-        """A metric of every member in one arm: infinite where the run diverged or failed, since that is worse than
-        any number; not a number where the scenario was refused, or has no such metric (a peak after no fault)."""
+        """A metric of every member in one arm: infinite where the run diverged, since that is worse than any number;
+        not a number where nothing was measured: the scenario was refused, its controller failed, or it has no such
+        metric (a peak after no fault)."""
         chosen = self.data.sel(arm=arm)
         found = chosen[metric].values if metric in chosen else np.full(chosen.sizes["member"], np.nan)
-        values = np.where(self.ended(arm, "COMPLETED"), found, np.inf)
-        return np.where(self.ended(arm, "REFUSED"), np.nan, values)
+        values = np.where(self.ended(arm, "COMPLETED"), found, np.nan)
+        return np.where(self.ended(arm, "DIVERGED"), np.inf, values)
+
+    @property
+    def lost(self) -> tuple[str, ...]:
+        """Names of the arms in which not one member completed."""
+        return tuple(arm for arm in self.arms if not self.ended(arm, "COMPLETED").any())
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Store as NetCDF4; the same study gives the same bytes.

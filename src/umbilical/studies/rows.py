@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
-from importlib import import_module
 from typing import Any, NamedTuple
 
 from umbilical.engine.simulate import Outcome, measure, simulate
-from umbilical.errors import ControllerError, FileError, ScenarioError
+from umbilical.errors import ControllerError, ScenarioError
 from umbilical.quantities import METRICS
 from umbilical.scenario import Scenario
+from umbilical.studies.controllers import describe_error, make_controller, shortened
 from umbilical.studies.members import Draws, Member
 
 STATUSES = ("COMPLETED", "DIVERGED", "REFUSED", "FAILED")
@@ -66,9 +64,11 @@ def _run_cell(draws: Draws, member: Member, arm: int, stored: bool) -> tuple[Cel
         problem = error.problems[0]
         return _without_metrics("REFUSED", f"{problem.key} = {problem.value}: allowed is {problem.bound}"), None
     except ControllerError as error:
-        return _without_metrics("FAILED", str(error)), None
-    except Exception as error:  # a study of a thousand must not end with its seven hundred and thirty-first
-        return _without_metrics("FAILED", f"{type(error).__name__}: {error}"), None
+        return _without_metrics("FAILED", shortened(str(error))), None
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a study of a thousand must not end with its seven hundred and thirty-first
+        return _without_metrics("FAILED", describe_error(error)), None
 
 
 def _stored(scenario: Scenario, controller: Any) -> tuple[Cell, bytes]:
@@ -85,24 +85,3 @@ def _cell(outcome: Outcome) -> Cell:
 
 def _without_metrics(status: str, reason: str) -> Cell:
     return Cell(status, reason, 0.0, (float("nan"),) * len(NAMES))
-
-
-def make_controller(path: str | None, scenario: Scenario) -> Any:
-    """The Python controller an arm names as ``module:function``, made from the member's scenario; None for none.
-
-    Raises:
-        FileError: there is no such module or function.
-    """
-    if path is None:
-        return None
-    return _factory(path)(scenario)
-
-
-def _factory(path: str) -> Callable[[Scenario], Any]:
-    module, _, name = path.partition(":")
-    if "" not in sys.path:
-        sys.path.append("")  # controllers usually lie in the folder one works in
-    try:
-        return getattr(import_module(module), name)
-    except (ImportError, AttributeError, ValueError) as error:
-        raise FileError(f"{path}: no such controller ({error}); name it as module:function") from error

@@ -86,7 +86,8 @@ def told(found: Estimate, digits: int = 4, unit: str = "") -> str:
     """
     if np.isnan(found.value):
         return "-"
-    low, high = (f"{end:.{digits}g}" if np.isfinite(end) else "open" for end in found[1:])
+    low = "open" if found.low == -np.inf else f"{found.low:.{digits}g}"
+    high = "open" if found.high == np.inf else f"{found.high:.{digits}g}"
     interval = "" if np.isnan(found.low) else f" ({low} to {high})"
     return f"{found.value:.{digits}g}{unit}{interval}"
 

@@ -47,7 +47,7 @@ class Arm(Record):
     name: str = Field(min_length=1, max_length=60, description="its name in tables and pictures")
     changes: dict[str, Any] = Field(default_factory=dict, description="values by dotted key of the scenario")
     controller: str | None = Field(
-        default=None, description="'module:function' that makes a Python controller from the member's scenario"
+        default=None, description="'module:function' that makes a Python controller from a scenario; run if trusted"
     )
 
 

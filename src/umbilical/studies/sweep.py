@@ -12,6 +12,7 @@ import numpy as np
 from umbilical.engine.simulate import simulate
 from umbilical.errors import OutputError
 from umbilical.formats import to_netcdf
+from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs, processes, threads
 from umbilical.studies.members import Draws, Member
 from umbilical.studies.results import StudyResult, assemble
@@ -29,6 +30,7 @@ def sweep(
     *,
     engine: Engine | None = None,
     jobs: int | None = None,
+    trust: bool = False,
     resume: bool = False,
     force: bool = False,
     progress: Progress = lambda share: None,
@@ -42,6 +44,7 @@ def sweep(
         engine: who works (:mod:`umbilical.studies.engines`); by default threads, or processes where an arm has a
             controller in Python. The result does not depend on it, bit for bit.
         jobs: how many work at once, for the default engine; all cores if left out.
+        trust: import the Python controllers that the study's arms name. That runs their code.
         resume: go on with what is in the folder.
         force: begin anew, and remove what is in the folder.
         progress: called with the share done, 0 to 1.
@@ -51,6 +54,7 @@ def sweep(
         The result. Members that diverged, were refused or failed are rows of it, with the reason.
 
     Raises:
+        ScenarioError: an arm names a Python controller that is not trusted, or does not work.
         OutputError: the folder cannot be written, is in use, full, or holds something already.
         FileError: the folder holds another study, or no cluster answers.
         MissingPartnerError: an optional package is needed.
@@ -60,12 +64,18 @@ def sweep(
     >>> sweep(small).data.sizes["member"]
     96
     """
+    check_controllers(study, trust=trust)
     draws = Draws(study)
     engine = engine or default_engine(study, jobs or default_jobs())
     if folder is None:
-        return assemble(study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
+        return in_memory(draws, engine, progress)
     with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
         return _into(store, draws, engine, progress, tell)
+
+
+def in_memory(draws: Draws, engine: Engine, progress: Progress = lambda share: None) -> StudyResult:
+    """The result of a study whose controllers have been checked."""
+    return assemble(draws.study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
 
 
 def default_engine(study: Study, jobs: int) -> Engine:
@@ -137,7 +147,7 @@ def worst(result: StudyResult, metric: str, arm: str, count: int) -> list[int]:
 
     Left out are members that were refused, which are no possible systems, and those that failed, which have no run.
     """
-    values = np.where(result.ended(arm, "FAILED"), np.nan, result.values(metric, arm))
+    values = result.values(metric, arm)
     order = np.argsort(-np.nan_to_num(values, nan=-np.inf, posinf=np.inf), kind="stable")
     return [int(place) + 1 for place in order if not np.isnan(values[place])][:count]
 

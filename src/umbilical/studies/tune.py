@@ -19,13 +19,14 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.document import extend, look_up, override, validate
 from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
+from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs
-from umbilical.studies.members import arm_data
+from umbilical.studies.members import Draws, arm_data
 from umbilical.studies.results import StudyResult
 from umbilical.studies.search import Point, Verdict, choose, front
 from umbilical.studies.store import Store, open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
-from umbilical.studies.sweep import default_engine, sweep
+from umbilical.studies.sweep import default_engine, in_memory
 
 Progress = Callable[[float], None]
 _NO_ANSWER = 1e6
@@ -99,6 +100,7 @@ def tune(
     optimiser: str = "auto",
     engine: Engine | None = None,
     constraints: Mapping[str, Constraint] | None = None,
+    trust: bool = False,
     resume: bool = False,
     force: bool = False,
     progress: Progress = lambda share: None,
@@ -112,18 +114,21 @@ def tune(
         optimiser: ``optuna``, ``scipy``, or ``auto`` for the first that is installed.
         engine: who runs the members of a trial; all cores of this machine by default.
         constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
+        trust: import the Python controllers that the study's arms name. That runs their code.
         resume: go on with what is in the folder, to the same bytes.
         force: begin anew.
         progress: called with the share done, 0 to 1.
 
     Raises:
-        ScenarioError: the study has no section ``tuning``, or a condition nobody knows.
+        ScenarioError: the study has no section ``tuning``, a condition nobody knows, or a Python controller that is
+            not trusted or does not work.
         MissingPartnerError: Optuna was asked for and is not installed.
         OutputError, FileError: as :func:`~umbilical.studies.sweep.sweep`.
     """
     tuning, (name, search) = tuning_of(study), choose(optimiser)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
+    check_controllers(study, trust=trust)
     engine = engine or default_engine(study, default_jobs())
     task = f"tune {name}"
     opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
@@ -180,7 +185,7 @@ def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Con
     violations = tuple(_NO_ANSWER if isnan(violation) else violation for violation in found)
     if any(violation > 0.0 for violation in violations):
         return Verdict(nothing, (0.0, *violations, 0.0))
-    result = sweep(study.model_copy(update={"arms": (arm,)}), engine=engine)
+    result = in_memory(Draws(study.model_copy(update={"arms": (arm,)})), engine)
     lost = float(np.mean(result["status"].values != 0))
     return Verdict(tuple(statistic(result, o) for o in tuning.objectives), (0.0, *violations, lost))
 
