@@ -14,7 +14,7 @@ SIZES = range(8, 1001)
 
 def coverage(low: int, high: int, size: int, share: float) -> float:
     """Probability that a quantile lies between two ranks: as many values as a binomial number are below it."""
-    return stats.binom.cdf(high - 1, size, share) - stats.binom.cdf(low - 1, size, share)
+    return float(stats.binom.cdf(high - 1, size, share) - stats.binom.cdf(low - 1, size, share))
 
 
 @pytest.mark.parametrize("level", SHARES)

@@ -73,11 +73,13 @@ def test_a_sweep_of_which_nothing_completes_says_so_and_why(umbilical, study, tm
 def test_an_arm_that_is_lost_whole_is_in_the_first_line_and_in_the_exit_code(umbilical, study, tmp_path):
     """Diverged members have metrics, and yet nothing was measured."""
     loose = '[{name = "one"}, {name = "runs away", changes = {"environment.payload_force.1.value" = 1e8}}]'
-    words = ["--set", f"arms={loose}", "--set", "campaigns=[]", "--set", "scenario.duration=0.5", "--out"]
+    mass = '[{key = "payload.mass", relative = true, distribution = {kind = "choice", values = [1.0]}}]'
+    words = ["--set", f"arms={loose}", "--set", f"factors={mass}", "--set", "campaigns=[]", "--out"]
     done = umbilical("sweep", study, *words, tmp_path / "text")
     assert done.code == 7
     assert "NOT ONE COMPLETED in runs away;" in done.out.splitlines()[0]
     document = umbilical("sweep", study, *words, tmp_path / "json", "--json").document()
+    assert (document["verdict"], document["exit_code"]) == ("DOES_NOT_HOLD", 7)
     assert document["none_completed"] == ["runs away"]
     assert document["endings"]["runs away"]["DIVERGED"] == 6
     assert document["metrics"]["tip_peak"]["runs away"]["median"]["status"] == "infinite"

@@ -102,8 +102,8 @@ def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, name, monke
 def test_conditions_are_asked_first_and_named(monkeypatch):
     """Gains above 100 are forbidden: no member runs with them, and none is chosen."""
     study = tuned_study(constraints=["soft"])
-    seen, sweep = [], tune.sweep
-    monkeypatch.setattr(tune, "sweep", lambda s, **k: seen.append(s.arms[0].changes) or sweep(s, **k))
+    seen, run = [], tune.in_memory
+    monkeypatch.setattr(tune, "in_memory", lambda d, e: seen.append(d.study.arms[0].changes) or run(d, e))
     soft = {"soft": lambda scenario: scenario.control.law.position_gain - 100.0}
     found = tune.tune(study, constraints=soft, engine=engines.threads(2))
     assert found.conditions == ("admitted", "soft", "completes")

@@ -69,7 +69,7 @@ def _show_study(
     if as_json:
         say_json(study_report.study_document(result, {"result": file}, against, metrics, sensitivity))
     else:
-        parts = [study_report.report(result, metrics, against)]
+        parts = [study_report.conclusion(result).headline, study_report.report(result, metrics, against)]
         parts += [study_report.sensitivity_text(result, sensitivity)] if sensitivity else []
         say("\n\n".join(parts))
 

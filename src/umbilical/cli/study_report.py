@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
+from umbilical.cli.conclusion import Conclusion
 from umbilical.cli.speech import shown_unit, table
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
@@ -28,9 +29,9 @@ _REASONS = 3
 
 
 def report(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
-    """Endings, distributions, comparisons with an arm (the first), limits and the worst members of each arm."""
+    """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst."""
     study, chosen = result.study, metrics or _usual(result)
-    parts = [_headline(result), study.description]
+    parts = [study.description]
     parts += [_endings(result), _reasons(result)]
     for metric in chosen:
         parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
@@ -39,14 +40,15 @@ def report(result: StudyResult, metrics: tuple[str, ...] = (), against: str | No
     return "\n\n".join(filter(None, parts))
 
 
-def _headline(result: StudyResult) -> str:
-    """How much completed comes first: what did not is no measurement."""
+def conclusion(result: StudyResult) -> Conclusion:
+    """Whether every arm has a member that completed: what did not complete is no measurement."""
     size, arms, lost = result.data.sizes["member"], len(result.arms), result.lost
     least = min(found["COMPLETED"] for found in endings(result).values())
     verdict = "all completed" if least == size else f"{least} completed{' in the worst of them' * (arms > 1)}"
     if lost:
         verdict = f"NOT ONE COMPLETED in {'any arm' if len(lost) == arms else ', '.join(lost)}"
-    return f"{result.study.name}: {size} members in {arms} arms, {verdict}; {result.study.hash[:12]}"
+    headline = f"{result.study.name}: {size} members in {arms} arms, {verdict}; {result.study.hash[:12]}"
+    return Conclusion("DOES_NOT_HOLD" if lost else "HOLDS", headline)
 
 
 def _usual(result: StudyResult) -> tuple[str, ...]:
@@ -156,6 +158,7 @@ def study_document(
     """A study's result as ``--json`` prints it; comparisons are with an arm, the first if none is named."""
     first, limits = against or result.arms[0], result.study.limits.items()
     document = {
+        **conclusion(result).document(),
         "study": result.study.name,
         "study_hash": result.study.hash,
         "members": result.data.sizes["member"],

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, tell
+from umbilical.cli.conclusion import conclude
+from umbilical.cli.speech import say, tell
 from umbilical.errors import FileError
 
 TRUST = Option("--trust", help="Import the Python controllers that the study names, which runs their code.")
@@ -48,7 +49,7 @@ def sweep(
     from a result.
     """
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.cli.study_report import report, study_document
+    from umbilical.cli.study_report import conclusion, report, study_document
     from umbilical.studies.sweep import sweep as run
 
     chosen = load_changed_study(study, changes or [])
@@ -65,11 +66,13 @@ def sweep(
         tell(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
     where = {"result": str(folder / "study.nc")}
-    if as_json:
-        say_json(study_document(found, where))
-    else:
-        say(f"{report(found)}\n\nresult: {where['result']}")
-    return DOES_NOT_HOLD if found.lost else 0
+    return conclude(
+        conclusion(found),
+        text=lambda: f"\n{report(found)}\n",
+        document=lambda: study_document(found, where),
+        files=where,
+        as_json=as_json,
+    )
 
 
 def refuse_code_of_results(source: str, study: Study) -> None:

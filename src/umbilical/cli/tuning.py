@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import DOES_NOT_HOLD, say, say_json, table, tell
+from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.speech import table, tell
 from umbilical.cli.sweeping import TRUST, load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target
 
@@ -83,11 +84,23 @@ def tune(
         from umbilical.plots import as_figure, plot_tuning, save_figure
 
         files["plot"] = str(save_figure(as_figure(plot_tuning(found)), picture, force=force or resume))
-    if as_json:
-        say_json({**found.document(), "files": files})
-    else:
-        say("\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]))
-    return 0 if found.front else DOES_NOT_HOLD
+    return conclude(
+        conclusion(found),
+        text=lambda: "\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),
+        document=lambda: {**found.document(), "files": files},
+        as_json=as_json,
+    )
+
+
+def conclusion(found: Tuned) -> Conclusion:
+    """Whether some gains keep every condition."""
+    kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
+    headline = (
+        f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
+    )
+    if not found.front:
+        return Conclusion("DOES_NOT_HOLD", f"{headline}: none is left to choose")
+    return Conclusion("HOLDS", headline)
 
 
 def _shortened(files: Mapping[str, str]) -> list[tuple[str, str]]:
@@ -105,11 +118,9 @@ def _report(found: Tuned) -> str:
         (str(k), *(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values))
         for k, t in enumerate(found.front, start=1)
     ]
-    kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
-    text = f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
-    text += "\nbroken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
+    text = "broken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
     if not rows:
-        return f"{text}\nnone is left to choose"
+        return text
     what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
     more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
     return f"{text}\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
