@@ -179,3 +179,60 @@ def test_read_names_a_file_it_may_not_open(ordinary_user):
         secret.chmod(0)
         with pytest.raises(FileError, match=r"cannot be read \(Permission denied\)"):
             files.read(secret)
+
+
+@posix
+def test_read_takes_ordinary_files_only_and_no_name_is_an_accident(tmp_path):
+    with pytest.raises(FileError, match="not an ordinary file"):
+        files.read("/dev/zero")
+    with pytest.raises(FileError, match="larger than"):
+        files.read_text("/dev/zero")
+    for name in ("a\0b", "n" * 300):
+        with pytest.raises(FileError, match="cannot be read"):
+            files.read(tmp_path / name)
+        with pytest.raises(OutputError, match="cannot be written"):
+            files.write(tmp_path / name, b"")
+
+
+@posix
+def test_a_link_is_followed_and_one_that_leads_nowhere_is_refused(tmp_path):
+    real, link = tmp_path / "real.nc", tmp_path / "link.nc"
+    link.symlink_to(real)
+    for force in (False, True):
+        with pytest.raises(OutputError, match=r"a link to .*real\.nc, which is not there"):
+            files.check(link, force=force)
+        with pytest.raises(OutputError, match="which is not there"):
+            files.write(link, b"new", force=force)
+    real.write_bytes(b"old")
+    with pytest.raises(OutputError, match="exists already"):
+        files.write(link, b"new")
+    files.write(link, b"new", force=True)
+    assert link.is_symlink()
+    assert real.read_bytes() == b"new"
+
+
+@posix
+def test_what_a_killed_process_left_is_removed_by_the_next_and_nothing_else(tmp_path):
+    script = (
+        "import os, sys; from umbilical import files\n"
+        "files.os.fsync = lambda number: {}\n"
+        "files.write(sys.argv[1], b'n')"
+    )
+    stuck = "(print('writing', flush=True), input())"
+    with subprocess.Popen(
+        [sys.executable, "-c", script.format(stuck), tmp_path / "b"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as living:
+        assert living.stdout is not None
+        living.stdout.readline()
+        subprocess.run([sys.executable, "-c", script.format("os.kill(os.getpid(), 9)"), tmp_path / "a"], check=False)
+        others = {".umbilical-mine.part", f".umbilical-{'0' * 16}.part.txt"}
+        for name in others:
+            (tmp_path / name).write_bytes(b"")
+        assert sum(name.endswith(".part") for name in names(tmp_path)) == 3
+        files.write(tmp_path / "c", b"c")
+        assert sum(name.endswith(".part") for name in names(tmp_path)) == 2
+        living.communicate("\n")
+    assert set(names(tmp_path)) == {"b", "c", *others}

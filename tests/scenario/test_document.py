@@ -177,3 +177,55 @@ def test_schema_describes_every_record_and_forbids_other_keys() -> None:
     kinds = {kind.__name__ for field in Scenario.model_fields.values() for kind in records(field.annotation)}
     assert kinds <= set(schema["$defs"])
     assert schema["$defs"]["Cable"]["properties"]["line_density"]["unit"] == "kg/m"
+
+
+_LONG = "9" * 5000
+IMPOSSIBLE = [
+    ".".join("a" * 1000) + "=5",
+    "assumed." + ".".join("a" * 1000) + "=5",
+    f"motors.{_LONG}.inertia=1.0",
+    "motors=" + "[" * 500,
+    "motors=" + "[" * 500 + "]" * 500,
+    "winch={" + ".".join("a" * 1000) + " = 1}",
+    f"duration={_LONG}",
+    f"seed=-{_LONG}",
+    f"duration=0x{'f' * 5000}",
+    f"winch.lengths=[1.0, {{ a = 0x{'f' * 5000} }}]",
+    "name=\udcff",
+    "\udcff=1",
+]
+
+
+@pytest.mark.parametrize("text", IMPOSSIBLE, ids=[text[:16] for text in IMPOSSIBLE])
+def test_what_no_scenario_has_is_refused_as_an_override(text: str) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        load("paper", dict([document.assignment(text)]))
+    assert all(len(line) < 1000 for line in str(caught.value).splitlines())
+
+
+@pytest.mark.parametrize("text", [text.replace("=", " = ", 1) for text in IMPOSSIBLE[:9]], ids=IMPOSSIBLE[:9])
+def test_what_no_scenario_has_is_refused_in_a_file(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(f'extends = "paper"\n{text}\n', encoding="utf-8")
+    with pytest.raises((ScenarioError, FileError), match=r"my\.toml"):
+        load(path)
+
+
+@pytest.mark.parametrize("marks", ["5", "[1]", '"x"', "{ duration = 5 }", "{}"])
+def test_marks_that_are_no_table_of_reasons_are_refused(tmp_path: Path, marks: str) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text(f'extends = "paper"\nassumed = {marks}\n', encoding="utf-8")
+    if marks == "{}":
+        assert load(path)
+    else:
+        with pytest.raises(ScenarioError, match="assumed"):
+            load(path)
+
+
+def test_a_name_that_is_only_half_alike_is_not_suggested() -> None:
+    with pytest.raises(ScenarioError) as caught:
+        load("paper", {"motors.1.current_limit": 5.0})
+    assert "did you mean" not in caught.value.problems[0].cure
+    with pytest.raises(ScenarioError) as caught:
+        load("paper", {"motors.1.voltage_limt": 5.0})
+    assert caught.value.problems[0].cure == "did you mean 'voltage_limit'?"

@@ -112,9 +112,9 @@ def test_force_begins_anew_and_removes_what_is_ours_only(tmp_path):
 
 def test_what_a_killed_process_left_is_ours(tmp_path):
     (tmp_path / "lock").touch()
-    (tmp_path / ".umbilical-0.part").write_text("half a manifest")
+    (tmp_path / f".umbilical-{7:016x}.part").write_text("half a manifest")
     sweep(small_study(members=2), tmp_path)
-    assert not (tmp_path / ".umbilical-0.part").exists()
+    assert not (tmp_path / f".umbilical-{7:016x}.part").exists()
 
 
 def test_two_processes_never_share_a_folder(tmp_path):

@@ -9,13 +9,12 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from umbilical import files
 from umbilical.admission.examine import admit_data
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import extend, read, try_override
 from umbilical.scenario.problems import nearest, shown
-
-_LARGEST_FILE = 50_000_000
 
 
 def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Scenario:
@@ -76,7 +75,11 @@ def _extended(data: dict[str, Any], origin: str) -> dict[str, Any]:
     if name not in preset_names():
         reason = "only the presets of this package can be extended"
         problem = Problem(
-            "extends", shown(name), f"one of {', '.join(preset_names())}", reason, nearest(str(name), preset_names())
+            "extends",
+            shown(name),
+            f"one of {', '.join(preset_names())}",
+            reason,
+            nearest(name if isinstance(name, str) else "", preset_names()),
         )
         raise ScenarioError([problem], origin)
     return extend(_extended(read(preset_text(name), name), name), changes)
@@ -95,22 +98,13 @@ def _text(source: str) -> str:
 
 def _file_text(path: Path) -> str:
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_FILE + 1)
-    except FileNotFoundError as error:
-        hint = nearest(str(path), preset_names())
-        raise FileError(f"{path}: there is no preset or file of this name; {hint}") from error
-    except IsADirectoryError as error:
-        raise FileError(f"{path}: this is a folder; name a scenario file in it") from error
-    except (OSError, ValueError) as error:
-        raise FileError(f"{path}: the file cannot be read: {getattr(error, 'strerror', None) or error}") from error
-    if len(content) > _LARGEST_FILE:
-        raise FileError(f"{path}: this is no scenario: larger than {_LARGEST_FILE // 1_000_000} MB")
-    try:
-        text = content.decode("utf-8-sig").replace("\r\n", "\n")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise FileError(f"{path}: this is not UTF-8 text (line {line}); save it with that encoding") from error
+        text = files.read_text(path)
+    except FileError as error:
+        if isinstance(error.__cause__, FileNotFoundError):
+            raise FileError(
+                f"{path}: there is no preset or file of this name; {nearest(str(path), preset_names())}"
+            ) from error
+        raise
     if not text.strip():
         raise FileError(f"{path}: the file is empty; start from `umbilical presets --copy paper {path.name}`")
     return text

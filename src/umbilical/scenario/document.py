@@ -13,12 +13,17 @@ from typing import Any
 from pydantic import ValidationError
 
 from umbilical.errors import FileError, Problem, ScenarioError
-from umbilical.scenario.fields import TAGS
-from umbilical.scenario.problems import problems_of, shown
+from umbilical.scenario.fields import TAGS, place_of
+from umbilical.scenario.problems import problems_of, short, shown
 from umbilical.scenario.scenario import Scenario
 
 Data = dict[str, Any]
 _ABSENT = object()
+DEEPEST = 32
+"""Tables and lists within each other, at the most; a scenario needs eight."""
+_LARGEST_BITS = 1000
+_TOO_LARGE = "a whole number of hundreds of digits, which no quantity is"
+_TOO_DEEP = f"nested too deeply: no scenario or study has more than {DEEPEST} levels"
 
 
 def parse(text: str, origin: str = "scenario") -> Scenario:
@@ -46,12 +51,15 @@ def read(text: str, origin: str = "scenario") -> Data:
         FileError: the text is not TOML; the message names line and column.
     """
     try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+        data = tomllib.loads(text)
+    except RecursionError as error:
+        raise FileError(f"{origin}: {_TOO_DEEP}") from error
+    except ValueError as error:  # not TOML, or a whole number of thousands of digits
         end = f"at the end of the text, line {len(text.splitlines())}"
         raise FileError(f"{origin}: this is not TOML: {str(error).replace('at end of document', end)}") from error
-    except RecursionError as error:
-        raise FileError(f"{origin}: this is not a scenario: nested too deeply") from error
+    if reason := _impossible(data):
+        raise FileError(f"{origin}: {reason}")
+    return data
 
 
 def validate(data: Mapping[str, Any], origin: str = "scenario") -> Scenario:
@@ -96,7 +104,8 @@ def extend(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:
     A table that names another kind (``law = "constant"`` over ``law = "quintic"``) replaces the whole table.
     """
     merged = _merge(base, {key: value for key, value in changes.items() if key != "assumed"})
-    marks = {**_marks_kept(base, merged), **changes.get("assumed", {})}
+    stated = changes.get("assumed", {})
+    marks = {**_marks_kept(base, merged), **stated} if isinstance(stated, Mapping) else stated
     return {**merged, "assumed": marks} if marks else merged
 
 
@@ -128,7 +137,7 @@ def try_override(data: Mapping[str, Any], overrides: Mapping[str, Any]) -> tuple
     changed = deepcopy(dict(data))
     kinds_first = sorted(overrides, key=lambda key: key.rpartition(".")[2] not in TAGS)
     found = [_assign(changed, key, overrides[key]) for key in kinds_first]
-    if "assumed" in data:
+    if isinstance(changed.get("assumed"), Mapping):
         stated = {key.removeprefix("assumed.") for key in overrides if key.startswith("assumed.")}
         kept = stated | set(_marks_kept(data, changed))
         changed["assumed"] = {key: reason for key, reason in changed["assumed"].items() if key in kept}
@@ -139,7 +148,7 @@ def assignment(text: str) -> tuple[str, Any]:
     """Key and value of ``key=value`` as typed on a command line; the value is TOML, else text.
 
     Raises:
-        ScenarioError: there is no key, or no equals sign.
+        ScenarioError: there is no key or equals sign, or the value is nested too deeply, too long or not UTF-8.
 
     >>> assignment("cable.length=250"), assignment("control.law.kind=pd")
     (('cable.length', 250), ('control.law.kind', 'pd'))
@@ -149,10 +158,16 @@ def assignment(text: str) -> tuple[str, Any]:
         raise ScenarioError(
             [Problem(key.strip() or "--set", shown(text), "key=value", "one value is set per key", "e.g. duration=10")]
         )
+    if any("\ud800" <= character <= "\udfff" for character in text):  # bytes that the shell passed on undecoded
+        raise ScenarioError([_refused(key.strip(), value, "not UTF-8 text")])
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value.strip()
+    except RecursionError:
+        raise ScenarioError([_refused(key.strip(), value, _TOO_DEEP)]) from None
+    except ValueError:  # of thousands of digits
+        raise ScenarioError([_refused(key.strip(), value, _TOO_LARGE)]) from None
 
 
 def look_up(data: Any, key: str) -> Any:
@@ -160,8 +175,8 @@ def look_up(data: Any, key: str) -> Any:
     for step in key.split("."):
         if isinstance(data, Mapping) and step in data:
             data = data[step]
-        elif isinstance(data, list | tuple) and _place(step, len(data)) is not None:
-            data = data[int(step) - 1]
+        elif isinstance(data, list | tuple) and (place := place_of(step, len(data))) is not None:
+            data = data[place]
         else:
             raise KeyError(key)
     return data
@@ -213,6 +228,8 @@ def _other_kind(old: Mapping[str, Any], new: Mapping[str, Any]) -> bool:
 def _marks_kept(before: Mapping[str, Any], after: Mapping[str, Any]) -> dict[str, str]:
     """Marks *assumed* of ``before`` whose values are the same in ``after``."""
     marks = before.get("assumed", {})
+    if not isinstance(marks, Mapping):
+        return {}
     return {key: reason for key, reason in marks.items() if _find(before, key) == _find(after, key)}
 
 
@@ -225,6 +242,8 @@ def _find(data: Mapping[str, Any], key: str) -> Any:
 
 def _assign(data: Data, key: str, value: Any) -> Problem | None:
     """Set one value; a problem where the key leads nowhere."""
+    if reason := _impossible(value, key.count(".")):
+        return _refused(key, value, reason)
     *path, last = ["assumed", key.partition(".")[2]] if key.startswith("assumed.") else key.split(".")
     table: Any = data
     for step in path:
@@ -236,10 +255,28 @@ def _assign(data: Data, key: str, value: Any) -> Problem | None:
         if value is None:
             del table[last]
         return None
-    if isinstance(table, list) and (place := _place(last, len(table))) is not None:
+    if isinstance(table, list) and (place := place_of(last, len(table))) is not None:
         table[place] = _thaw(value)
         return None
     return _nowhere(data, key, value)
+
+
+def _impossible(value: Any, level: int = 0) -> str:
+    """Why plain data, ``level`` tables down, is none of ours; empty if it may be. It never recurses."""
+    layer = [value]
+    while layer:
+        if any(isinstance(part, int) and part.bit_length() > _LARGEST_BITS for part in layer):
+            return _TOO_LARGE
+        layer = [part for part in layer if isinstance(part, Mapping | list | tuple)]
+        level += bool(layer)
+        if level > DEEPEST:
+            return _TOO_DEEP
+        layer = [part for item in layer for part in (item.values() if isinstance(item, Mapping) else item)]
+    return ""
+
+
+def _refused(key: str, value: Any, reason: str) -> Problem:
+    return Problem(short(key), shown(value), "what a scenario or study has", reason, "see `umbilical schema`")
 
 
 def _thaw(value: Any) -> Any:
@@ -253,14 +290,9 @@ def _enter(table: Any, step: str) -> Any:
     """The table or list one step down; a missing table is made, anything else is None."""
     if isinstance(table, dict):
         return table.setdefault(step, {})
-    if isinstance(table, list) and (place := _place(step, len(table))) is not None:
+    if isinstance(table, list) and (place := place_of(step, len(table))) is not None:
         return table[place]
     return None
-
-
-def _place(step: str, size: int) -> int | None:
-    """Index of a list's place counted from 1; None if there is no such place."""
-    return int(step) - 1 if step.isdecimal() and 1 <= int(step) <= size else None
 
 
 def _nowhere(data: Data, key: str, value: Any) -> Problem:
@@ -270,5 +302,7 @@ def _nowhere(data: Data, key: str, value: Any) -> Problem:
     found = _find(data, parent)
     if isinstance(found, list):
         bound = f"places 1 to {len(found)} of {parent}" if found else f"no place: {parent} is empty"
-        return Problem(key, shown(value), bound, "lists are numbered from 1", "name a place that exists")
-    return Problem(key, shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it")
+        return Problem(short(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
+    return Problem(
+        short(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
+    )

@@ -73,6 +73,15 @@ def locate(record: type[Record], place: Sequence[int | str]) -> Place:
     return Place(".".join(steps), field, annotation)
 
 
+def place_of(step: str, size: int) -> int | None:
+    """Index of a list's place that a key counts from 1; None if there is no such place.
+
+    >>> place_of("2", 2), place_of("3", 2), place_of("9" * 5000, 2)
+    (1, None, None)
+    """
+    return int(step) - 1 if step.isdecimal() and len(step) < 10 and 1 <= int(step) <= size else None
+
+
 def _entry(annotation: Any, of: FieldInfo | None) -> FieldInfo:
     """Field of one entry of a list: its own bounds, and the list's meaning."""
     field = FieldInfo.from_annotation(annotation)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from pydantic.fields import FieldInfo
 
 from umbilical.scenario.base import Record
-from umbilical.scenario.fields import word
+from umbilical.scenario.fields import place_of, word
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.text import literal
 
@@ -64,9 +64,9 @@ def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
             field = type(here).model_fields.get(step)
             units = [unit for unit in word(field, "unit").split(", ") if unit] or units  # a signal's: what it is of
             here = getattr(here, step, None)
-        elif isinstance(here, tuple) and step.isdecimal() and 1 <= int(step) <= len(here):
-            units = units[int(step) - 1 :] or units[-1:]  # one unit for each place of a list, the last for all others
-            here = here[int(step) - 1]
+        elif isinstance(here, tuple) and (place := place_of(step, len(here))) is not None:
+            units = units[place:] or units[-1:]  # one unit for each place of a list, the last for all others
+            here = here[place]
         else:
             return "", ""
     if field is None:

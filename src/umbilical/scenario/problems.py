@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
+from math import log10
 from typing import Any
 
 from pydantic import ValidationError
@@ -14,6 +16,11 @@ from umbilical.scenario.base import Record
 from umbilical.scenario.fields import bounds, choices, locate, records, with_unit, word
 
 _MANY = 30
+_NEAR = 0.75
+"""Likeness of two names, 0 to 1, from which one may be a slip of the other: half of the letters is not enough."""
+_WORD = re.compile(r"[^\W_]+")
+_LONG = 200
+"""Characters of a text that is shown as it is."""
 _EXPECTED = {
     "float_type": "a number",
     "finite_number": "a finite number",
@@ -40,10 +47,18 @@ def problems_of(error: ValidationError, record: type[Record]) -> list[Problem]:
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
-    """``did you mean 'x'?`` with the known name most like this one; when none is, the names (not a page of them)."""
+    """``did you mean 'x'?`` with the name that this one is a slip of; where there is none, the names (not a page).
+
+    >>> nearest("slope_gian", ["slope_gain", "midpoint"]), nearest("limit", ["voltage_limit", "inertia"])
+    ("did you mean 'slope_gain'?", "did you mean 'voltage_limit'?")
+    >>> nearest("current_limit", ["voltage_limit", "inertia"])
+    'known: voltage_limit, inertia'
+    """
     known = [str(candidate) for candidate in known]
-    close = get_close_matches(name, known, n=1, cutoff=0.5)
-    if close:
+    words = set(_WORD.findall(name))
+    close = get_close_matches(name, known, n=1, cutoff=_NEAR)
+    close = close or [candidate for candidate in known if words and words < set(_WORD.findall(candidate))]
+    if len(close) == 1:
         return f"did you mean '{close[0]}'?"
     return f"known: {', '.join(known[:_MANY])}{', ...' * (len(known) > _MANY)}"
 
@@ -53,14 +68,30 @@ def shown(value: Any, field: FieldInfo | None = None) -> str:
     if isinstance(value, bool):
         return f"{str(value).lower()} (a truth value)"
     if isinstance(value, int | float):
-        return with_unit(repr(value), field)
+        return with_unit(_digits(value), field)
     if isinstance(value, str):
-        return f'"{value}" (text)'
+        return f'"{short(value)}" (text)'
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, list | tuple):
         return f"a list of {len(value)}"
-    return f"{value} ({type(value).__name__})"
+    return f"{short(str(value))} ({type(value).__name__})"
+
+
+def short(text: str) -> str:
+    """A text of somebody else's as it stands in a message: the beginning of a long one.
+
+    >>> short("a" * 1000)[-22:]
+    'a... (1000 characters)'
+    """
+    return text if len(text) <= _LONG else f"{text[: _LONG // 2]}... ({len(text)} characters)"
+
+
+def _digits(value: float) -> str:
+    """A number; of a whole one that fills lines (or that Python refuses to print) how many there are."""
+    if isinstance(value, int) and value.bit_length() > 4 * _LONG:
+        return f"a whole number of some {round(value.bit_length() * log10(2.0))} digits"
+    return repr(value)
 
 
 def _consequence(complaint: Mapping[str, Any]) -> bool:
@@ -71,7 +102,7 @@ def _consequence(complaint: Mapping[str, Any]) -> bool:
 def _problem(complaint: Mapping[str, Any], record: type[Record]) -> Problem:
     place = locate(record, complaint["loc"])
     build = _SPECIAL.get(complaint["type"], _plain)
-    return build(place.key, place.field, complaint, record)
+    return build(short(place.key), place.field, complaint, record)
 
 
 def _plain(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:

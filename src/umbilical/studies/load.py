@@ -79,11 +79,11 @@ def admit_study(data: Mapping[str, Any], origin: str, problems: list[Problem] | 
 def _beside(data: Mapping[str, Any], error: ValidationError) -> list[Problem]:
     """What is wrong across the fields that are sound one by one, so that all problems come at once."""
     places = [complaint["loc"] for complaint in error.errors(include_url=False)]
-    kept = {key: value for key, value in data.items() if key not in {str(place[0]) for place in places}}
+    kept = {key: value for key, value in data.items() if key not in {str(place[0]) for place in places if place}}
     if "arms" not in kept:
         kept.pop("tuning", None)  # which speaks of them
     for key, stub in (("factors", None), ("arms", {"name": "wrong"})):  # an arm keeps its number, a factor has its key
-        wrong = {place[1] for place in places if place[0] == key and len(place) > 1}
+        wrong = {place[1] for place in places if len(place) > 1 and place[0] == key}
         if wrong:
             kept[key] = [stub if number in wrong else entry for number, entry in enumerate(data[key])]
             kept[key] = [entry for entry in kept[key] if entry is not None]
@@ -140,11 +140,11 @@ def _text(source: str) -> str:
 
         return study_of_file(source)
     try:
-        return files.read(source).decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise FileError(f"{source}: this is not UTF-8 text; save it with that encoding") from error
+        return files.read_text(source)
     except FileError as error:
-        raise FileError(f"{error}, and no study of this name; {nearest(source, study_names())}") from error
+        if isinstance(error.__cause__, FileNotFoundError):
+            raise FileError(f"{error}, and no study of this name; {nearest(source, study_names())}") from error
+        raise
 
 
 def _scenario_data(scenario: Any, folder: Path, origin: str) -> Data:

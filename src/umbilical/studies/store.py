@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from umbilical import __version__, files
 from umbilical.errors import FileError, OutputError
@@ -59,8 +58,8 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
     files.make_folder(folder)
     _refuse_strangers(folder)
     with _locked(folder):
-        for part in [*folder.glob(_PARTS), *(folder / RUNS).glob(_PARTS)]:
-            part.unlink()
+        for place in (folder, folder / RUNS):
+            files.remove_stale_parts(place)
         if force:
             _clear(folder)
         _settle(folder, study, task, resume)
@@ -147,22 +146,6 @@ def _locked(folder: Path) -> Iterator[None]:
     except OSError as error:
         raise OutputError(f"{folder}: cannot be written to ({error.strerror})") from error
     with file:
-        if not _lock(file):
+        if not files.try_lock(file):
             raise OutputError(f"{folder}: another process is at work there; wait for it, or name another folder")
         yield
-
-
-def _lock(file: IO[bytes]) -> bool:
-    try:
-        if os.name == "nt":
-            import msvcrt
-
-            locking: Any = msvcrt
-            locking.locking(file.fileno(), locking.LK_NBLCK, 1)
-        else:
-            import fcntl
-
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError:
-        return False
-    return True
