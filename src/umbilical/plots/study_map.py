@@ -181,5 +181,5 @@ def _name_axes(ax: Axes, result: StudyResult, x: Axis, y: Axis) -> None:
 
 
 def _named(result: StudyResult, name: str) -> str:
-    unit = result[name].attrs["units"]
+    unit = result[name].attrs.get("units", "1")
     return f"{name} [{unit}]" if unit not in ("", "1") else name

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
-from itertools import islice
+from itertools import chain, islice
 from typing import TypeVar
 
 from umbilical.errors import ControllerError
@@ -45,11 +45,11 @@ def processes(jobs: int) -> Engine:
     """Processes of this machine: for controllers in Python, which hold the GIL. A killed one is replaced."""
 
     def run(draws: Draws, members: Iterable[Member]) -> Iterator[Row]:
-        packed, waiting = pickle.dumps(draws.study), {member.number: member for member in members}
+        packed, coming, begun = pickle.dumps(draws.study), iter(members), dict[int, Member]()
         for life in range(_LIVES):
             try:
-                for row in _one_pool(jobs, packed, list(waiting.values())):
-                    del waiting[row.number]
+                for row in _one_pool(jobs, packed, _noted(chain(list(begun.values()), coming), begun)):
+                    del begun[row.number]
                     yield row
                 return
             except BrokenProcessPool as error:
@@ -57,6 +57,13 @@ def processes(jobs: int) -> Engine:
                     raise ControllerError(f"worker processes died {_LIVES} times; is there memory for them?") from error
 
     return run
+
+
+def _noted(members: Iterable[Member], begun: dict[int, Member]) -> Iterator[Member]:
+    """The members one by one, each noted when it is taken."""
+    for member in members:
+        begun[member.number] = member
+        yield member
 
 
 def _one_pool(jobs: int, packed: bytes, members: Iterable[Member]) -> Iterator[Row]:

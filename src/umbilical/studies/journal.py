@@ -1,24 +1,25 @@
 """The journal of work under way: one line for each finished piece, which survives whatever happens next.
 
 A line is written, brought to the disk and only then counted; it carries its own checksum. A process that is killed
-while it writes leaves half a line, which the next one cuts off; a disk that is full leaves none.
+while it writes leaves half a line, which the next one cuts off; a disk that is full leaves none. A line that is damaged
+in the middle of others is nobody's kill, and is refused.
 """
 
 from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
-from itertools import takewhile
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import IO, Any
 from zlib import crc32
 
-from umbilical.errors import OutputError
+from umbilical.errors import FileError, OutputError
 
 _SYNC_EVERY = 1.0
 """Seconds between two waits for the disk. A killed process loses nothing it wrote; a power cut this much."""
+BEGIN_ANEW = "begin anew with --force"
 
 
 def to_line(entry: Any) -> bytes:
@@ -33,15 +34,46 @@ def is_whole(line: bytes) -> bool:
 
 
 def lines(path: Path) -> Iterator[bytes]:
-    """Lines of a journal, up to the first that is not whole."""
+    """Lines of a journal, up to a last one that is not whole.
+
+    Raises:
+        FileError: a line is not whole and others that are follow it, which no kill leaves; or it cannot be read.
+    """
     if path.exists():
-        with path.open("rb") as file:
-            yield from takewhile(is_whole, file)
+        with _opened(path) as file:
+            for number, line in enumerate(file, start=1):
+                if not is_whole(line):
+                    _refuse_damage(path, number, file)
+                    return
+                yield line
 
 
 def entries(path: Path) -> Iterator[Any]:
-    """What was written, in that order, up to the first line that is not whole."""
-    return (json.loads(line[9:-1]) for line in lines(path))
+    """What was written, in that order, up to a last line that is not whole.
+
+    Raises:
+        FileError: the journal is damaged.
+    """
+    for number, line in enumerate(lines(path), start=1):
+        try:
+            yield json.loads(line[9:-1])
+        except (ValueError, RecursionError) as error:
+            raise FileError(f"{path}: line {number} is not what Umbilical writes; {BEGIN_ANEW}") from error
+
+
+def _refuse_damage(path: Path, number: int, rest: Iterable[bytes]) -> None:
+    if any(map(is_whole, rest)):
+        raise FileError(
+            f"{path}: line {number} is damaged and lines after it are not; remove that line and go on with --resume, "
+            "or begin anew with --force"
+        )
+
+
+def _opened(path: Path) -> IO[bytes]:
+    try:
+        return path.open("rb")
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read ({error.strerror})") from error
 
 
 class Journal:

@@ -98,6 +98,11 @@ class Draws:
         """Member of a number, from 1."""
         return Member(number, tuple(self.points[number - 1].tolist()))
 
+    def column(self, variable: int) -> list[Drawn]:
+        """What was drawn of one variable, from 0, for every member."""
+        distribution = self.variables[variable].distribution
+        return [draw(distribution, share) for share in self.points[:, variable].tolist()]
+
     def values(self, member: Member) -> dict[str, Drawn]:
         """What was drawn for a member, by column; relative factors as they are drawn."""
         return {v.name: draw(v.distribution, share) for v, share in zip(self.variables, member.point, strict=True)}

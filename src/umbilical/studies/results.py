@@ -20,7 +20,8 @@ from umbilical.quantities import METRICS
 from umbilical.run import CONVENTION
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
-from umbilical.studies.members import Draws, units_of_a_fault
+from umbilical.studies.distributions import Drawn
+from umbilical.studies.members import Draws, units_of_a_fault, variables
 from umbilical.studies.rows import NAMES, STATUSES, Row
 from umbilical.studies.study import Study
 
@@ -121,7 +122,7 @@ def assemble(study: Study, rows: Iterable[Row]) -> StudyResult:
     }
     flags = {"flag_values": np.arange(len(STATUSES), dtype=np.int8), "flag_meanings": " ".join(STATUSES)}
     named["status"] = (dims, status, {"long_name": "how the run ended", **flags})
-    named["reason"] = (dims, reason.astype(str), {"long_name": "why it did not complete"})
+    named["reason"] = (dims, reason, {"long_name": "why it did not complete"})
     named["end_time"] = (dims, end, _words("s", "instant the run ended at"))
     named["point"] = (("member", "variable"), draws.points, _words("1", "draws in the unit cube"))
     return StudyResult(xarray.Dataset(named, _coordinates(study, draws), _identity(study)), study)
@@ -138,11 +139,17 @@ def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
             {"long_name": "what is drawn"},
         ),
     }
-    drawn, words = [draws.values(draws.member(int(number))) for number in members], _drawn_words(study, draws)
-    for variable in draws.variables:
-        column = np.array([values[variable.name] for values in drawn])
-        found[variable.name] = ("member", column, _words(*words[variable.name]))
+    words = _drawn_words(study, draws)
+    for place, variable in enumerate(draws.variables):
+        found[variable.name] = ("member", _array(draws.column(place)), _words(*words[variable.name]))
     return found
+
+
+def _array(values: list[Drawn]) -> np.ndarray:
+    """Texts as objects, each as long as it is: the longest would decide about the memory of all."""
+    if any(isinstance(value, str) for value in values):
+        return np.array([str(value) for value in values], dtype=object)
+    return np.array(values)
 
 
 def _drawn_words(study: Study, draws: Draws) -> dict[str, tuple[str, str]]:
@@ -193,9 +200,35 @@ def open_study(path: str | os.PathLike[str]) -> StudyResult:
     data = _open(path)
     try:
         origin = f"{path}: the study inside"
-        return StudyResult(data, admit_study(read(data.attrs["study"], origin), origin))
+        study = admit_study(read(data.attrs["study"], origin), origin)
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
+    if wrong := _misfit(data, study):
+        raise FileError(f"{path}: {wrong}; the file was changed since Umbilical wrote it")
+    return StudyResult(data, study)
+
+
+def _misfit(data: xarray.Dataset, study: Study) -> str:
+    """What of a file does not fit the study inside; empty if all does."""
+    shape = {"member": len(Draws(study)), "arm": len(study.arms)}
+    if "arm" not in data.variables or [str(name) for name in data["arm"].values.ravel()] != [
+        a.name for a in study.arms
+    ]:
+        return "`arm` is not the study's list of arms"
+    for name in ("status", "reason", "end_time", *(name for name in METRICS if name in data)):
+        if name not in data:
+            return f"`{name}` is missing"
+        if dict(data[name].sizes) != shape:
+            return f"`{name}` is {dict(data[name].sizes)} and not {shape}"
+        if data[name].dtype.kind not in (_KINDS.get(name, "f")):
+            return f"`{name}` holds {data[name].dtype}"
+    if not np.isin(data["status"].values, range(len(STATUSES))).all():
+        return "`status` holds what is no status"
+    return next((f"`{v.name}` is missing" for v in variables(study) if v.name not in data), "")
+
+
+_KINDS = {"status": "iu", "reason": "OU"}
+"""Kinds of numpy types; of all others floats."""
 
 
 def study_of_file(path: str | os.PathLike[str]) -> str:
@@ -205,11 +238,17 @@ def study_of_file(path: str | os.PathLike[str]) -> str:
 
 def is_study_file(path: str | os.PathLike[str]) -> bool:
     """Whether a result file is a study's; raises FileError for what is no result."""
-    return from_netcdf(files.read(path), str(path)).attrs.get("kind") == KIND
+    return _kind(from_netcdf(files.read(path), str(path))) == KIND
+
+
+def _kind(data: xarray.Dataset) -> str:
+    return str(data.attrs.get("kind"))  # of a changed file it may be an array
 
 
 def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
-    if data.attrs.get("kind") != KIND:
+    if _kind(data) != KIND:
         raise FileError(f"{path}: this is the result of a run, not of a study")
+    if not isinstance(data.attrs.get("study"), str):
+        raise FileError(f"{path}: the attribute `study`, the text of the study, is missing or no text")
     return data

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from umbilical.engine.simulate import Outcome, measure, simulate
-from umbilical.errors import ControllerError, ScenarioError
+from umbilical.errors import ControllerError, FileError, ScenarioError
 from umbilical.quantities import METRICS
 from umbilical.scenario import Scenario
 from umbilical.studies.controllers import describe_error, make_controller, shortened
+from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, Member
 
 STATUSES = ("COMPLETED", "DIVERGED", "REFUSED", "FAILED")
@@ -34,10 +35,25 @@ class Row(NamedTuple):
     runs: tuple[bytes | None, ...] = ()
 
 
-def from_entry(entry: Any) -> Row:
-    """The row of a line of a journal, which holds a row's first two fields."""
-    number, cells = entry
-    return Row(number, tuple(Cell(status, reason, end, tuple(metrics)) for status, reason, end, metrics in cells))
+def from_entry(entry: Any, members: int, arms: int) -> Row:
+    """The row of a line of a journal, which holds a row's first two fields.
+
+    Raises:
+        FileError: the line is no row of a study with so many members and arms.
+    """
+    try:
+        number, cells = entry
+        row = Row(number, tuple(Cell(s, r, float(end), tuple(map(float, metrics))) for s, r, end, metrics in cells))
+        sound = type(number) is int and 1 <= number <= members and len(cells) == arms
+        if sound and all(map(_is_cell, row.cells)):
+            return row
+    except (TypeError, ValueError):
+        pass
+    raise FileError(f"the journal holds a line that is no row of this study; {BEGIN_ANEW}")
+
+
+def _is_cell(cell: Cell) -> bool:
+    return cell.status in STATUSES and isinstance(cell.reason, str) and len(cell.metrics) == len(NAMES)
 
 
 def run_member(draws: Draws, member: Member) -> Row:

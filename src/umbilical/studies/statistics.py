@@ -10,6 +10,7 @@ import numpy as np
 
 from umbilical.analysis import paired
 from umbilical.analysis.paired import Comparison, Estimate
+from umbilical.studies.rows import STATUSES
 
 if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult
@@ -69,8 +70,7 @@ def caveat(design: Method) -> str:
 def reasons(result: StudyResult, arm: str) -> list[Reason]:
     """Why members of an arm did not complete, the commonest first; texts that differ in numbers only are one."""
     chosen = result.data[["status", "reason"]].sel(arm=arm)
-    names = str(chosen["status"].attrs["flag_meanings"]).split()
-    texts = [(names[s], str(r)) for s, r in zip(chosen["status"].values, chosen["reason"].values, strict=True) if s]
+    texts = [(STATUSES[s], str(r)) for s, r in zip(chosen["status"].values, chosen["reason"].values, strict=True) if s]
     first: dict[tuple[str, str], str] = {}
     for status, text in texts:
         first.setdefault((status, _NUMBER.sub("#", text)), text)

@@ -56,7 +56,7 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
         FileError: what is there belongs to another study or was made by another version.
     """
     files.make_folder(folder)
-    _refuse_strangers(folder)
+    _refuse_strangers(folder, resume)
     with _locked(folder):
         for place in (folder, folder / RUNS):
             files.remove_stale_parts(place)
@@ -103,7 +103,7 @@ def _manifest(folder: Path) -> dict[str, Any] | None:
     """What the folder's manifest says, if it is one of ours: only then are its files."""
     try:
         found = json.loads((folder / MANIFEST).read_bytes())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) and found.keys() >= _WORDS.keys() else None
 
@@ -117,10 +117,12 @@ _WORDS = {
 }
 
 
-def _refuse_strangers(folder: Path) -> None:
+def _refuse_strangers(folder: Path, resume: bool) -> None:
     """Leave folders alone that hold something else: without a manifest no file is ours, whatever its name."""
     strangers = sorted(entry.name for entry in folder.iterdir() if not _is_lock(entry) and not entry.match(_PARTS))
     if strangers and _manifest(folder) is None:
+        if resume and MANIFEST in strangers:
+            raise FileError(f"{folder / MANIFEST}: is damaged, or no manifest of a study; name another folder")
         raise OutputError(f"{folder}: holds {strangers[0]}, and no study; name another folder")
 
 

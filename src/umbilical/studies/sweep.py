@@ -16,6 +16,7 @@ from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs, processes, threads
 from umbilical.studies.members import Draws, Member
 from umbilical.studies.results import StudyResult, assemble
+from umbilical.studies.room import check_memory
 from umbilical.studies.rows import Row, from_entry
 from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
@@ -54,7 +55,8 @@ def sweep(
         The result. Members that diverged, were refused or failed are rows of it, with the reason.
 
     Raises:
-        ScenarioError: an arm names a Python controller that is not trusted, or does not work.
+        ScenarioError: an arm names a Python controller that is not trusted, or does not work; or there is not memory
+            enough.
         OutputError: the folder cannot be written, is in use, full, or holds something already.
         FileError: the folder holds another study, or no cluster answers.
         MissingPartnerError: an optional package is needed.
@@ -64,6 +66,7 @@ def sweep(
     >>> sweep(small).data.sizes["member"]
     96
     """
+    check_memory(study)
     check_controllers(study, trust=trust)
     draws = Draws(study)
     engine = engine or default_engine(study, jobs or default_jobs())
@@ -84,18 +87,23 @@ def default_engine(study: Study, jobs: int) -> Engine:
 
 
 def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, tell: Tell) -> StudyResult:
-    study, done = draws.study, {number for number, _ in store.entries()}
+    study, done = draws.study, {row.number for row in _stored_rows(store, draws)}
     if study.trajectories.keep != "none":
         _check_room(store, draws, tell)
     found = engine(draws, _members(draws, done))
     for row in _counted(found, len(draws), len(done), progress):
         _store_runs(store, row, range(len(study.arms)))
         store.journal.append(row[:2])
-    result = assemble(study, map(from_entry, store.entries()))
+    result = assemble(study, _stored_rows(store, draws))
     store.save(to_netcdf(result.data), "study.nc")
     if study.trajectories.keep == "worst":
         _keep_the_worst(store, draws, engine, result)
     return result
+
+
+def _stored_rows(store: Store, draws: Draws) -> Iterator[Row]:
+    members, arms = len(draws), len(draws.study.arms)
+    return (from_entry(entry, members, arms) for entry in store.entries())
 
 
 def _store_runs(store: Store, row: Row, arms: Sequence[int]) -> None:

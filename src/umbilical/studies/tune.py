@@ -15,14 +15,16 @@ import numpy as np
 
 from umbilical.admission import admit, load, preset_names
 from umbilical.analysis.paired import quantile
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario.document import extend, look_up, override, validate
 from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs
+from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, arm_data
 from umbilical.studies.results import StudyResult
+from umbilical.studies.room import check_memory
 from umbilical.studies.search import Point, Verdict, choose, front
 from umbilical.studies.store import Store, open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
@@ -128,6 +130,7 @@ def tune(
     tuning, (name, search) = tuning_of(study), choose(optimiser)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
+    check_memory(study)
     check_controllers(study, trust=trust)
     engine = engine or default_engine(study, default_jobs())
     task = f"tune {name}"
@@ -156,7 +159,8 @@ class _Trials:
         self._study, self._conditions, self._engine = study, conditions, engine
         self._store, self._progress = store, progress
         old = store.entries() if store else ()
-        self._known: dict[Point, Verdict] = {tuple(p): Verdict(tuple(v), tuple(b)) for p, v, b in old}
+        lengths = (len(tuning_of(study).gains), len(tuning_of(study).objectives), len(conditions) + 2)
+        self._known: dict[Point, Verdict] = dict(_from_entry(entry, lengths) for entry in old)
 
     def judge(self, point: Point) -> Verdict:
         """What comes of a point of the unit cube."""
@@ -169,6 +173,21 @@ class _Trials:
         self.all.append(Trial(gains, verdict))
         self._progress(len(self.all) / tuning_of(self._study).trials)
         return verdict
+
+
+def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, Verdict]:
+    """Point and verdict of a line of the journal.
+
+    Raises:
+        FileError: it holds something else.
+    """
+    try:
+        point, values, violations = (tuple(map(float, numbers)) for numbers in entry)
+    except (TypeError, ValueError):
+        point, values, violations = (), (), ()
+    if (len(point), len(values), len(violations)) != lengths:
+        raise FileError(f"the journal holds a line that is no trial of this study; {BEGIN_ANEW}")
+    return point, Verdict(values, violations)
 
 
 def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Engine) -> Verdict:

@@ -1,0 +1,66 @@
+"""Main memory that a study takes, held against the machine's before anything is drawn."""
+
+from __future__ import annotations
+
+import os
+from math import inf
+from pathlib import Path
+
+from umbilical.errors import Problem, ScenarioError
+from umbilical.studies.designs import size
+from umbilical.studies.distributions import count
+from umbilical.studies.members import variables
+from umbilical.studies.rows import NAMES
+from umbilical.studies.study import Study
+
+_NUMBER = 8
+_COPIES = 5
+"""Of every number, while a result is assembled and written: rows, columns, the file and its buffers."""
+_CELL, _DRAW, _MEMBER = 100, 100, 300
+"""Bytes beside the metrics of a member in an arm (status, time, reason), of one of its draws, and of the member."""
+_CONTROL_GROUPS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+
+
+def members_of(study: Study) -> int:
+    """How many members a study has, a grid's product included."""
+    return size(study.design, study.members, [count(v.distribution) for v in variables(study)])
+
+
+def memory_needed(study: Study) -> int:
+    """Bytes at the end of a study, when all its rows become one result; an upper estimate."""
+    cells = len(study.arms) * (_COPIES * _NUMBER * len(NAMES) + _CELL)
+    return members_of(study) * (cells + _DRAW * len(variables(study)) + _MEMBER)
+
+
+def machine_memory() -> float:
+    """Bytes of main memory this process may use; infinite where the system does not tell."""
+    limits = [inf]
+    if "SC_PHYS_PAGES" in getattr(os, "sysconf_names", {}):
+        limits.append(float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")))
+    for name in _CONTROL_GROUPS:
+        text = Path(name).read_text().strip() if Path(name).is_file() else ""
+        limits += [float(text)] if text.isdecimal() else []
+    return min(limits)
+
+
+def check_memory(study: Study) -> None:
+    """Refuse a study whose result this machine could not hold.
+
+    Raises:
+        ScenarioError: with the memory it needs, what there is, and how many members that is enough for.
+    """
+    need, there = memory_needed(study), machine_memory()
+    if need > there:
+        members = members_of(study)
+        raise ScenarioError(
+            [
+                Problem(
+                    "members",
+                    f"{members}, which take {need / 1e9:.3g} GB of memory",
+                    f"at most {int(members * there / need)}, for the {there / 1e9:.3g} GB of this machine",
+                    "all rows become one result at the end",
+                    "take fewer members or arms, or several studies with seeds of their own",
+                )
+            ],
+            study.name,
+        )
