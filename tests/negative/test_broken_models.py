@@ -10,7 +10,7 @@ from fnmatch import fnmatch
 
 import pytest
 
-from tests.support import broken
+from tests.support import broken, broken_sea
 from tests.support.broken import Break, another_scenario
 from umbilical.verify import FAMILIES
 from umbilical.verify.cases import UNFINISHED, Case, worst_ratio
@@ -62,6 +62,13 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "a force nobody ordered": (UNORDERED, ("superposition*", "mirror*", "shift*", "other units")),
     "motors that never quite die": (broken.motors_that_never_quite_die, ("all motors dead",)),
     "tension that never gets constant": (another_scenario(broken.tension_that_never_gets_constant), ("rho*",)),
+    "a spectrum of both sides": (broken_sea.two_sided_spectrum, ("sea, wave spectra", "sea, screening")),
+    "energy for amplitude": (broken_sea.energy_for_amplitude, ("sea, wave spectra",)),
+    "degrees for radians": (broken_sea.degrees_for_radians, ("sea, screening",)),
+    "lead for lag": (broken_sea.lead_for_lag, ("sea, vessel*",)),
+    "the body's added mass forgotten": (broken_sea.added_mass_forgotten, ("sea, screening",)),
+    "half the body in heave": (broken_sea.half_the_body, ("sea, cable*", "sea, screening")),
+    "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),
     "a ROV that depends on the grid": (another_scenario(broken.a_rov_that_depends_on_the_grid), ("refinement",)),
 }
 """What is broken, and the cases that must notice, by pattern."""

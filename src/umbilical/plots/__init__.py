@@ -18,6 +18,7 @@ from umbilical.plots.figure import as_figure, save_figure
 from umbilical.plots.margins import plot_margins
 from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
+from umbilical.plots.operability import plot_lowering, plot_operability
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
 from umbilical.plots.study import (
     STUDY_PLOTS,
@@ -54,10 +55,12 @@ __all__ = [
     "plot_design",
     "plot_distribution",
     "plot_energy",
+    "plot_lowering",
     "plot_map",
     "plot_margins",
     "plot_motors",
     "plot_observers",
+    "plot_operability",
     "plot_overview",
     "plot_positions",
     "plot_sensitivity",

@@ -21,6 +21,7 @@ from umbilical.verify import (
     moving_end,
     observers,
     power_balance,
+    sea,
     static_deflection,
     tip_damper,
 )
@@ -38,6 +39,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Instants": instants.CASES,
     "Whole loop": (*crosscheck.CASES, *cascade.CASES),
     "Invariance": invariance.CASES,
+    "Sea and heave": sea.CASES,
 }
 """Every case, in the order of the table."""
 

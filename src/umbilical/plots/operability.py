@@ -1,0 +1,105 @@
+"""In which sea an operation is possible: limits over depth and period, and the risk of lowering over winch speed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.plots.figure import COLOURS, QUIET, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from umbilical.screening.lower import Lowering
+    from umbilical.screening.operate import Operability
+
+LEVELS = np.array([0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0])
+"""Limiting Hs at which contours are drawn, m."""
+
+
+def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | Axes:
+    """Limiting Hs of the worst heading: a map over depth and period, or over depth for a single period.
+
+    A line marks the depths whose axial period is the sea's peak period.
+    """
+    figure = None
+    if ax is None:
+        figure = new_figure(8.0, 5.0)
+        ax = figure.add_subplot()
+    worst = found.limit.min(axis=2)
+    if min(worst.shape) > 1:
+        _map(found, worst, ax)
+    else:
+        _lines(found, ax)
+    criteria = ", ".join(str(criterion) for criterion in found.criteria)
+    ax.set_title(f"{found.operation.name}: largest Hs that keeps {criteria}", fontsize=9.5, loc="left")
+    return ax if figure is None else figure
+
+
+def _map(found: Operability, worst: np.ndarray, ax: Axes) -> None:
+    drawn = ax.pcolormesh(
+        found.period, found.depth, worst, cmap="YlGnBu_r", vmin=0.0, vmax=LEVELS[-1], shading="gouraud"
+    )
+    lines = ax.contour(found.period, found.depth, worst, LEVELS, colors="black", linewidths=0.8)
+    ax.clabel(lines, fmt="%g m", fontsize=8)
+    ax.plot(found.axial_period, found.depth, color=COLOURS[1], linewidth=1.8, label="Tp equals the axial period T1")
+    ax.set(xlabel="peak period Tp [s]", ylabel="cable paid out [m]")
+    ax.set_xlim(found.period.min(), found.period.max())
+    ax.set_ylim(found.depth.max(), found.depth.min())
+    ax.get_figure(root=True).colorbar(drawn, ax=ax, label="limiting Hs, worst heading [m]", extend="max")  # type: ignore[union-attr]
+    _legend_below(ax)
+
+
+def _lines(found: Operability, ax: Axes) -> None:
+    """One line for each heading, over whichever axis has more than one value."""
+    deep = found.depth.size >= found.period.size
+    x = found.depth if deep else found.period
+    for number, heading in enumerate(found.heading):
+        y = found.limit[:, 0, number] if deep else found.limit[0, :, number]
+        ax.plot(
+            x, y, color=COLOURS[number % len(COLOURS)], linestyle=("-", "--", ":")[number // len(COLOURS) % 3],
+            marker="o" if x.size < 20 else None, markersize=3, label=f"{np.degrees(heading):.0f} deg",
+        )  # fmt: skip
+    fixed = f"Tp {found.period[0]:g} s" if deep else f"{found.depth[0]:g} m"
+    ax.set(xlabel="cable paid out [m]" if deep else "peak period Tp [s]", ylabel=f"limiting Hs at {fixed} [m]")
+    ax.set_ylim(bottom=0.0)
+    ax.grid(alpha=0.25, linewidth=0.6)
+    ax.spines[["top", "right"]].set_visible(False)
+    _legend_below(ax, title="waves go towards (180: head sea)")
+
+
+def plot_lowering(found: Lowering) -> Figure:
+    """Risk of slack over winch speed, and over depth how often the cable would go slack at three of the speeds."""
+    figure = new_figure(10.0, 4.5)
+    left, right = figure.subplots(1, 2)
+    left.semilogy(found.speed, np.maximum(found.risk, 1e-12), color=COLOURS[0], marker="o", markersize=3)
+    left.axvline(found.speed[found.best], color=QUIET, linestyle="--", linewidth=1.0)
+    left.annotate(f"best: {found.speed[found.best]:.3g} m/s", (found.speed[found.best], 1.0), xytext=(4, -2),
+                  textcoords="offset points", va="top", fontsize=8, xycoords=("data", "axes fraction"))  # fmt: skip
+    left.set(xlabel="winch speed [m/s]", ylabel="probability of slack in the descent", ylim=(1e-8, 2.0))
+    chosen = dict.fromkeys((0, found.best, found.speed.size - 1))
+    for number, row in enumerate(chosen):
+        right.semilogx(found.slack_rate[row] * 3600.0, found.depth, color=COLOURS[number],
+                       linestyle=("-", "--", "-.")[number], label=f"{found.speed[row]:.3g} m/s")  # fmt: skip
+    if found.resonant.any():
+        band = found.depth[found.resonant]
+        right.axhspan(band[0], band[-1], color=COLOURS[4], alpha=0.2, label="resonant with Tp")
+    right.set(xlabel="expected slack events per hour", ylabel="cable paid out [m]")
+    right.set_xlim(left=1e-9)
+    right.set_ylim(found.depth.max(), found.depth.min())
+    for ax in (left, right):
+        ax.grid(alpha=0.25, linewidth=0.6)
+        ax.spines[["top", "right"]].set_visible(False)
+    _legend_below(right)
+    sea = found.spectrum
+    figure.suptitle(
+        f"{found.operation.name}: lowering in Hs {sea.significant_height:g} m, Tp {sea.peak_period:g} s, waves towards "
+        f"{np.degrees(found.heading):.0f} deg", fontsize=10, x=0.01, ha="left",
+    )  # fmt: skip
+    return figure
+
+
+def _legend_below(ax: Axes, **options: str) -> None:
+    ax.legend(fontsize=8, ncols=4, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), **options)  # type: ignore[arg-type]

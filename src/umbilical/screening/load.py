@@ -1,0 +1,120 @@
+"""Where operations come from: presets by name, and TOML files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from functools import lru_cache
+from importlib import resources
+from typing import Any
+
+from pydantic import ValidationError
+
+from umbilical import files
+from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.scenario.document import Data, extend, freeze, read, try_override
+from umbilical.scenario.problems import nearest, problems_of
+from umbilical.screening.axial import Bar
+from umbilical.screening.operation import Operation
+
+_HEAVIER = ("nothing is heavier in water than in air", "were wet and dry swapped, or newton and kilogram?")
+_LARGEST_STRAIN = 0.1
+
+
+def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Operation:
+    """Load an operation and check it.
+
+    Args:
+        source: name of a preset, or path of a ``.toml`` file; one that says ``extends = "work-class"`` gives only
+            what differs.
+        overrides: values by dotted keys, e.g. ``{"payload.mass": 4000.0}``.
+
+    Raises:
+        FileError: there is no such preset or file, or it is not TOML.
+        ScenarioError: with every problem.
+
+    >>> load_operation("work-class", {"vessel.draught": 7.0}).vessel.draught
+    7.0
+    """
+    origin = os.fspath(source)
+    changed, lost = try_override(_extended(read(_text(origin), origin), origin), overrides or {})
+    try:
+        operation = Operation.model_validate(freeze(changed))
+    except ValidationError as error:
+        raise ScenarioError([*lost, *problems_of(error, Operation)], origin) from error
+    if found := [*lost, *problems_across(operation)]:
+        raise ScenarioError(found, origin)
+    return operation
+
+
+def operation_names() -> tuple[str, ...]:
+    """Names of the operations that come with the package.
+
+    >>> operation_names()
+    ('work-class',)
+    """
+    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
+
+
+def operation_text(name: str) -> str:
+    """TOML text of an operation that comes with the package."""
+    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def bar_of(operation: Operation, length: float) -> Bar:
+    """Cable and body of an operation with so many metres paid out.
+
+    The cable's drag is linearised for the speed of the body: near resonances of the cable itself, where it moves
+    faster than the body, that leaves out some damping.
+    """
+    cable, body = operation.cable, operation.payload
+    shared = cable.tangential_drag / body.quadratic_drag if body.quadratic_drag > 0.0 else 0.0
+    moving = body.mass + body.added_mass
+    return Bar(cable.axial_stiffness, cable.line_density, moving, length, cable.loss_factor, shared)
+
+
+def problems_across(operation: Operation) -> list[Problem]:
+    """What is wrong between fields that are sound one by one."""
+    cable, body = operation.cable, operation.payload
+    dry, strain = body.mass * operation.environment.gravity, body.wet_weight / cable.axial_stiffness
+    found = []
+    if cable.wet_line_density > cable.line_density:
+        value, bound = f"{cable.wet_line_density:g} kg/m", f"at most {cable.line_density:g} kg/m, the dry one"
+        found.append(Problem("cable.wet_line_density", value, bound, *_HEAVIER))
+    if body.wet_weight > dry:
+        value, bound = f"{body.wet_weight:g} N", f"at most {dry:g} N, the dry weight"
+        found.append(Problem("payload.wet_weight", value, bound, *_HEAVIER))
+    if strain > _LARGEST_STRAIN:
+        value = f"{cable.axial_stiffness:g} N"
+        bound = f"at least {body.wet_weight / _LARGEST_STRAIN:g} N, a strain of {_LARGEST_STRAIN:.0%}"
+        reason = f"the body alone would stretch the cable by {strain:.0%}"
+        found.append(Problem("cable.axial_stiffness", value, bound, reason, "EA in newton: modulus times area"))
+    return found
+
+
+@lru_cache(maxsize=1)
+def _folder() -> Any:
+    return resources.files("umbilical.screening") / "presets"
+
+
+def _text(source: str) -> str:
+    if source in operation_names():
+        return operation_text(source)
+    try:
+        return files.read(source).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise FileError(f"{source}: this is not UTF-8 text; save it with that encoding") from error
+    except FileError as error:
+        raise FileError(f"{error}, and no operation of this name; {nearest(source, operation_names())}") from error
+
+
+def _extended(data: Data, origin: str) -> Data:
+    """The document laid over the preset that it extends."""
+    if "extends" not in data:
+        return data
+    name, known = data.pop("extends"), operation_names()
+    if name not in known:
+        bound, cure = f"one of {', '.join(known)}", nearest(str(name), known)
+        problem = Problem("extends", str(name), bound, "only operations that come along can be extended", cure)
+        raise ScenarioError([problem], origin)
+    return extend(read(operation_text(name), name), data)

@@ -1,0 +1,265 @@
+"""Limiting significant wave height over depth, period and heading.
+
+For a linear damping k of the body everything is proportional to Hs. So a table over k gives, for each sea, the height
+that belongs to k by linearised drag, and the height at which a criterion is met with that k; where they cross is the
+limit. No sea is iterated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
+from umbilical.screening.criteria import Criterion
+from umbilical.screening.load import bar_of
+from umbilical.screening.operation import Operation
+from umbilical.screening.response import FREQUENCIES, Spread, largest_rms, sheave_energy, spread
+from umbilical.sea.spectrum import Spectrum
+
+if TYPE_CHECKING:
+    import xarray
+
+STEEPEST = 1.0 / 7.0
+"""Hs over the deep-water wavelength of the peak period: steeper seas do not exist."""
+MARGIN = 0.1
+"""Simulations gave 5 % more tension than the linearisation: until one confirms a limit, keep 10 % clear of it."""
+TYPICAL_LOSS = 0.02
+"""Loss factor of steel armour, assumed; what the limits are held against where the operation gives none."""
+MOVED = 0.2
+"""Share of a limit."""
+_DAMPINGS = 120
+_PLACES = np.array([1.0, 0.75, 0.5, 0.25, 0.0])
+"""Shares of the length where slack is looked for, the body first."""
+
+
+@dataclass(frozen=True)
+class Operability:
+    """Limits over depth, period and heading.
+
+    Attributes:
+        operation: vessel, cable, body.
+        criteria: what must hold.
+        depth, period, heading: axes; m, s (Tp), rad.
+        limits: Hs at which each criterion is just met, m, shape (criteria, depth, period, heading); at most that of
+            the steepest sea.
+        axial_period: T1 at each depth, s.
+        undamped: where the limit hangs on a damping of the cable itself that the operation leaves at 0: a loss factor
+            of :data:`TYPICAL_LOSS` moves it by more than :data:`MOVED`; shape (depth, period, heading).
+    """
+
+    operation: Operation
+    criteria: tuple[Criterion, ...]
+    depth: np.ndarray
+    period: np.ndarray
+    heading: np.ndarray
+    limits: np.ndarray
+    axial_period: np.ndarray
+    undamped: np.ndarray
+
+    @property
+    def limit(self) -> np.ndarray:
+        """Hs at which the first criterion fails, m, shape (depth, period, heading)."""
+        return self.limits.min(axis=0)
+
+    @property
+    def worst(self) -> tuple[int, int, int]:
+        """Places of the lowest limit in depth, period and heading, counted from 0."""
+        where = np.unravel_index(int(np.argmin(self.limit)), self.limit.shape)
+        return int(where[0]), int(where[1]), int(where[2])
+
+    def holds(self, height: float) -> bool:
+        """Whether a sea of this Hs, m, keeps every criterion at all depths, periods and headings."""
+        return bool(np.all(self.limit >= height))
+
+    def summary(self) -> str:
+        """The lowest limit and where it is, in one line."""
+        d, p, h = self.worst
+        which = self.criteria[int(np.argmin(self.limits[:, d, p, h]))]
+        if self.limit[d, p, h] >= steepest_height(self.period)[p]:
+            return f"{self.operation.name}: no limit below the steepest seas"
+        return (
+            f"{self.operation.name}: Hs up to {self.limit[d, p, h]:.3g} m; lowest at {self.depth[d]:.4g} m, "
+            f"Tp {self.period[p]:.3g} s, heading {np.degrees(self.heading[h]):.0f} deg ({which})"
+        )
+
+    def notices(self) -> tuple[str, ...]:
+        """What the limits do not know."""
+        said = [
+            "linearised: keep 10 % below a limit until a simulation confirms it",
+            "one wave direction at a time, no current; the cable stays straight and its length is held",
+        ]
+        if count := int(self.undamped.sum()):
+            said.append(
+                f"{count} of {self.undamped.size} limits hang on the cable's own damping, which is 0 here: a loss "
+                f"factor of {TYPICAL_LOSS:g} moves them by more than {MOVED:.0%} (cable.loss_factor)"
+            )
+        return tuple(said)
+
+    def to_dataset(self) -> xarray.Dataset:
+        """As labelled arrays with units."""
+        import xarray
+
+        dims = ("depth", "period", "heading")
+        words = {
+            "limit": ("m", "largest significant wave height that keeps all criteria"),
+            "limit_by_criterion": ("m", "largest significant wave height that keeps the criterion"),
+            "axial_period": ("s", "longest axial period T1"),
+            "undamped": ("1", "the limit hangs on a damping of the cable that is 0 here"),
+            "depth": ("m", "cable paid out"),
+            "period": ("s", "peak period Tp"),
+            "heading": ("rad", "direction the waves go to, 0 following"),
+        }
+        says = {name: {"units": unit, "long_name": meaning} for name, (unit, meaning) in words.items()}
+        data = {
+            "limit": (dims, self.limit, says["limit"]),
+            "limit_by_criterion": (("criterion", *dims), self.limits, says["limit_by_criterion"]),
+            "axial_period": ("depth", self.axial_period, says["axial_period"]),
+            "undamped": (dims, self.undamped.astype("i1"), says["undamped"]),
+        }
+        axes = {name: (name, getattr(self, name), says[name]) for name in dims}
+        axes["criterion"] = ("criterion", [str(criterion) for criterion in self.criteria], {})
+        return xarray.Dataset(data, axes, {"operation": self.operation.name, "operation_hash": self.operation.hash})
+
+    def to_dict(self) -> dict[str, Any]:
+        """As plain data."""
+        d, p, h = self.worst
+        return {
+            "operation": self.operation.name,
+            "operation_hash": self.operation.hash,
+            "headline": self.summary(),
+            "criteria": [str(criterion) for criterion in self.criteria],
+            "depth": self.depth.tolist(),
+            "period": self.period.tolist(),
+            "heading": self.heading.tolist(),
+            "limit": self.limit.tolist(),
+            "lowest": {"height": float(self.limit[d, p, h]), "depth": float(self.depth[d]),
+                       "period": float(self.period[p]), "heading": float(self.heading[h])},
+            "axial_period": self.axial_period.tolist(),
+            "undamped": self.undamped.tolist(),
+            "notices": self.notices(),
+            "assumed": self.operation.assumed,
+        }  # fmt: skip
+
+    def plot(self, **options: Any) -> Any:
+        """Draw a map of the limits; options as for ``umbilical.plot_operability``."""
+        from umbilical import plot_operability
+
+        return plot_operability(self, **options)
+
+
+def operate(
+    operation: Operation,
+    criteria: Sequence[Criterion],
+    *,
+    depth: np.ndarray,
+    period: np.ndarray,
+    heading: np.ndarray,
+    progress: Callable[[float], None] = lambda share: None,
+) -> Operability:
+    """Find the limiting Hs of long-crested seas over depth, peak period and heading.
+
+    Args:
+        operation: vessel, cable, body, compensation.
+        criteria: what must hold, one or more.
+        depth: cable paid out, m, shape (d,).
+        period: peak periods Tp, s, shape (p,).
+        heading: directions the waves go to, rad, shape (h,).
+        progress: called with the share that is done.
+
+    >>> import numpy as np
+    >>> from umbilical.screening import load_operation
+    >>> from umbilical.screening.criteria import parse_criterion
+    >>> found = operate(load_operation("work-class"), [parse_criterion("slack=1e-2/3h")],
+    ...                 depth=np.array([1500.0]), period=np.array([8.0]), heading=np.radians([135.0]))
+    >>> round(float(found.limit[0, 0, 0]), 2)
+    1.64
+    """
+    seas = _unit_seas(operation, period, heading)
+    found, damped = [], []
+    for number, length in enumerate(depth.tolist()):
+        found.append(_limits_at(operation, tuple(criteria), bar_of(operation, length), seas))
+        damped.append(_limits_at(operation, tuple(criteria), _with_typical_loss(bar_of(operation, length)), seas))
+        progress((number + 1) / depth.size)
+    shape = (len(criteria), depth.size, period.size, heading.size)
+    steepest = steepest_height(period)[None, None, :, None]
+    limits, held = (np.minimum(np.stack(part, axis=1).reshape(shape), steepest) for part in (found, damped))
+    axial = np.array([axial_period(bar_of(operation, length)) for length in depth.tolist()])
+    undamped = abs(held.min(axis=0) - limits.min(axis=0)) > MOVED * limits.min(axis=0)
+    return Operability(operation, tuple(criteria), depth, period, heading, limits, axial, undamped)
+
+
+def _with_typical_loss(bar: Bar) -> Bar:
+    return bar if bar.loss_factor > 0.0 else bar._replace(loss_factor=TYPICAL_LOSS)
+
+
+def steepest_height(period: np.ndarray) -> np.ndarray:
+    """Hs of the steepest sea of a peak period, m."""
+    return STEEPEST * 9.81 * period**2 / (2.0 * np.pi)
+
+
+def _unit_seas(operation: Operation, period: np.ndarray, heading: np.ndarray) -> np.ndarray:
+    """Spectra of the sheave's heave for Hs = 1 m, shape (frequencies, periods x headings)."""
+    gamma = operation.sea.peakedness
+    seas = [
+        sheave_energy(operation, Spectrum(1.0, float(tp), gamma).density(FREQUENCIES), float(beta))
+        for tp in period
+        for beta in heading
+    ]
+    return np.array(seas).T
+
+
+def _limits_at(operation: Operation, criteria: tuple[Criterion, ...], bar: Bar, seas: np.ndarray) -> np.ndarray:
+    """Limiting Hs of each criterion in each sea at one depth, m, shape (criteria, seas)."""
+    drag = operation.payload.quadratic_drag
+    scale = drag * np.sqrt(8.0 / np.pi)
+    damping = scale * np.geomspace(1e-4, 30.0, _DAMPINGS) if drag > 0.0 else np.zeros(1)
+    answer = heave_transfer(bar, damping, FREQUENCIES)
+    velocity = spread(abs(answer.body) ** 2 * FREQUENCIES**2, seas).rms
+    height = damping[:, None] / (scale * velocity) if drag > 0.0 else np.full_like(velocity, np.nan)
+    rows = []
+    for criterion in criteria:
+        allowed = np.min([
+            largest_rms(level, process.period, criterion.probability, criterion.duration) / process.rms
+            for level, process in _processes(operation, criterion, bar, answer, seas)
+        ], axis=0)  # fmt: skip
+        rows.append(allowed[0] if drag == 0.0 else _crossing(height, allowed))
+    return np.array(rows)
+
+
+def _processes(
+    operation: Operation, criterion: Criterion, bar: Bar, answer: HeaveTransfer, seas: np.ndarray
+) -> list[tuple[float, Spread]]:
+    """What a criterion bounds, and by which level above its mean; for Hs = 1 m."""
+    weight = operation.cable.wet_line_density * operation.environment.gravity
+    static = operation.payload.wet_weight
+    match criterion.name:
+        case "top_tension":
+            return [(criterion.level - static - weight * bar.length, spread(abs(answer.top) ** 2, seas))]
+        case "body_heave":
+            return [(criterion.level, spread(abs(answer.body) ** 2, seas))]
+    below = [(1.0 - share) * bar.length for share in _PLACES]
+    return [
+        (static + weight * hanging, spread(abs(answer.tension_at(bar.length - hanging)) ** 2, seas))
+        for hanging in below
+    ]
+
+
+def _crossing(height: np.ndarray, allowed: np.ndarray) -> np.ndarray:
+    """First height, along the damping, at which the sea is as high as allowed; shape (dampings, seas) to (seas,)."""
+    with np.errstate(divide="ignore"):
+        gap = np.log(height) - np.log(allowed)
+    above = gap >= 0.0
+    first = np.argmax(above, axis=0)
+    seas = np.arange(height.shape[1])
+    before = np.maximum(first - 1, 0)
+    low, high = gap[before, seas], gap[first, seas]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(first > 0, -low / (high - low), 1.0)
+        share = np.where(np.isfinite(share), share, 1.0)
+        crossed = np.exp((1.0 - share) * np.log(height[before, seas]) + share * np.log(height[first, seas]))
+    crossed = np.where(allowed[first, seas] <= 0.0, 0.0, crossed)
+    return np.where(above.any(axis=0), crossed, height[-1])

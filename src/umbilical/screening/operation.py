@@ -1,0 +1,132 @@
+"""What an operation consists of: a vessel, a cable, a body, a sea. Records, frozen and checked."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import Any, Literal
+
+from pydantic import Field
+
+from umbilical.scenario.base import LARGEST, Record
+
+
+def measured(
+    unit: str, meaning: str, default: Any = ..., *, reason: str = "", cure: str = "", source: str = "", **bounds: float
+) -> Any:
+    """A field of a number with its unit, meaning and bounds (``gt``, ``ge``, ``lt``, ``le``)."""
+    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "cure": cure}
+    limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
+    return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]
+
+
+class HangingCable(Record):
+    """The umbilical in line with its tension."""
+
+    line_density: float = measured(
+        "kg/m", "dry line density, flooded water included", gt=0.0, le=1e3, reason="it carries axial waves", cure="kg/m"
+    )
+    wet_line_density: float = measured(
+        "kg/m", "line density less the displaced water", gt=0.0, le=1e3,
+        reason="its weight holds the cable taut; one that floats needs the full model", cure="weight in water over g",
+    )  # fmt: skip
+    axial_stiffness: float = measured(
+        "N", "EA, force over strain", gt=0.0, reason="the cable is elastic", cure="from the maker's data sheet"
+    )
+    loss_factor: float = measured(
+        "1", "loss factor of the material in stretch", 0.0, ge=0.0, le=1.0, reason="friction takes energy",
+        cure="0 is cautious; a per cent or two for steel armour",
+    )  # fmt: skip
+    tangential_drag: float = measured(
+        "N s2/m3", "drag along the cable per metre over the square of the speed", 0.0, ge=0.0, le=1e3,
+        reason="drag brakes", cure="1/2 rho_w pi d C_dt, C_dt about 0.01; 0 is cautious",
+    )  # fmt: skip
+
+
+class HangingBody(Record):
+    """What hangs at the end: a TMS with its ROV, a cage or a clump."""
+
+    mass: float = measured("kg", "dry mass", gt=0.0, le=1e7, reason="it has inertia", cure="kg")
+    added_mass: float = measured("kg", "added mass in heave", ge=0.0, le=1e7, reason="water moves with it", cure="kg")
+    wet_weight: float = measured(
+        "N", "weight in water", gt=0.0, le=1e8, reason="a body that floats does not pull the cable taut",
+        cure="newton, not kilogram: mass in water times g",
+    )  # fmt: skip
+    quadratic_drag: float = measured(
+        "N s2/m2", "drag in heave over the square of the speed", ge=0.0, le=1e7, reason="drag brakes",
+        cure="1/2 rho_w C_d times the projected area",
+    )  # fmt: skip
+
+
+class BoxShip(Record):
+    """A vessel by the closed form of Jensen, Mansour and Olsen, and where its sheave is."""
+
+    kind: Literal["box"] = "box"
+    length: float = measured("m", "length at the waterline", gt=0.0, le=500.0, reason="a ship", cure="metres")
+    breadth: float = measured("m", "breadth at the waterline", gt=0.0, le=100.0, reason="a ship", cure="metres")
+    draught: float = measured("m", "draught", gt=0.0, le=30.0, reason="a ship", cure="metres")
+    block_coefficient: float = measured(
+        "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9"
+    )
+    sheave_forward: float = measured(
+        "m", "sheave forward of midship", 0.0, ge=-500.0, le=500.0, reason="pitch", cure="m"
+    )
+    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll", cure="m")
+
+
+class HeaveCompensation(Record):
+    """A winch that follows the measured heave: residual |1 - k e^(-i w tau) H(w)|, H of second order."""
+
+    gain: float = measured("1", "share of the heave it follows", 1.0, ge=0.0, le=1.0, reason="a share", cure="0 to 1")
+    lag: float = measured("s", "delay of measurement and drive", ge=0.0, le=5.0, reason="a delay", cure="seconds")
+    bandwidth: float = measured(
+        "rad/s", "natural frequency of the drive", gt=0.0, le=1e3, reason="a drive", cure="rad/s"
+    )
+    damping: float = measured("1", "damping ratio of the drive", 0.7, gt=0.0, le=10.0, reason="a drive", cure="0.7")
+
+
+class SeaShape(Record):
+    """What is said of the sea beside its height and its period."""
+
+    peakedness: float = measured(
+        "1", "gamma of JONSWAP, 1 for Pierson-Moskowitz", 3.3, ge=1.0, le=7.0, reason="1 to 7 are seas", cure="1 to 7"
+    )
+
+
+class Water(Record):
+    """Gravity; the body's drag and weight are given as they are in this water."""
+
+    gravity: float = measured(
+        "m/s2", "gravitational acceleration", 9.81, gt=0.0, le=100.0, reason="weight", cure="9.81"
+    )
+
+
+class Operation(Record):
+    """Everything that screening needs, frozen.
+
+    >>> from umbilical.screening.load import load_operation
+    >>> load_operation("work-class").payload.wet_weight
+    35000.0
+    """
+
+    schema_version: Literal[1] = Field(default=1, description="version of this format")
+    kind: Literal["operation"] = Field(description="what this file is")
+    name: str = Field(min_length=1, max_length=60, description="short name")
+    description: str = Field(default="", description="what is lowered from what")
+    cable: HangingCable
+    payload: HangingBody
+    vessel: BoxShip
+    sea: SeaShape = SeaShape()
+    compensation: HeaveCompensation | None = None
+    environment: Water = Water()
+    assumed: dict[str, str] = Field(default_factory=dict, description="what no source gives, each with the reason")
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the canonical text; equal exactly when operations are."""
+        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data."""
+        return self.model_dump(mode="json", exclude_none=True)

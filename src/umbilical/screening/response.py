@@ -1,0 +1,162 @@
+"""Statistics of cable and body in one sea: linear transfer, with the body's drag linearised for that sea.
+
+Drag D |u| u of a body that moves with u = mean + Gaussian is replaced by the damping k with the least mean square
+error, k = 2 D E|u|; without a mean that is D sqrt(8/pi) sigma. sigma depends on k, so k is a root.
+Extremes are those of a narrow-banded Gaussian process: a level is passed within a time T with the probability
+``1 - exp(-nu T exp(-level^2/(2 sigma^2)))``, nu the rate of upward crossings of the mean.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.special import erf
+
+from umbilical.screening.axial import axial_period, heave_transfer
+from umbilical.screening.load import bar_of
+from umbilical.screening.operation import HeaveCompensation, Operation
+from umbilical.sea.spectrum import Spectrum
+from umbilical.sea.vessel import BoxVessel, heave_of_point
+
+FREQUENCIES = np.geomspace(0.1, 12.0, 1600)
+"""rad/s; waves of 0.5 to 63 s."""
+STEPS = np.gradient(FREQUENCIES)
+"""Weights of the trapezoidal rule, rad/s."""
+
+
+class Spread(NamedTuple):
+    """Root mean square of a Gaussian process and its mean period between upward crossings, s; any shape."""
+
+    rms: np.ndarray
+    period: np.ndarray
+
+
+class Response(NamedTuple):
+    """Cable and body in one sea at one depth.
+
+    Attributes:
+        depth: m; axial_period: T1 of the hanging bar, s.
+        sheave, body: heave of the sheave and of the body, m.
+        end, top: dynamic tension at the body and at the sheave, N.
+        damping: of the body, linearised, N s/m.
+        end_mean, top_mean: mean tension, N.
+    """
+
+    depth: float
+    axial_period: float
+    sheave: Spread
+    body: Spread
+    end: Spread
+    top: Spread
+    damping: float
+    end_mean: float
+    top_mean: float
+
+    def slack_probability(self, duration: float) -> float:
+        """Probability that the cable goes slack at the body within a time, s."""
+        return float(exceedance(self.end_mean, self.end, duration))
+
+
+def respond(
+    operation: Operation, spectrum: Spectrum, *, depth: float, heading: float, payout_speed: float = 0.0
+) -> Response:
+    """Compute the statistics in one sea.
+
+    Args:
+        operation: vessel, cable, body.
+        spectrum: the sea, long-crested.
+        depth: cable paid out, m.
+        heading: direction the waves go to, rad from the bow; 0 following, pi head sea.
+        payout_speed: steady speed of the winch, m/s, positive paying out; the length is held.
+
+    >>> import numpy as np
+    >>> from umbilical.screening import load_operation
+    >>> found = respond(load_operation("work-class"), Spectrum(2.5, 8.0), depth=3000.0, heading=np.radians(135))
+    >>> round(float(found.top.rms), -1), round(found.slack_probability(3 * 3600.0), 4)
+    (9160.0, 0.0053)
+    """
+    bar, drag = bar_of(operation, depth), operation.payload.quadratic_drag
+    heave = sheave_energy(operation, spectrum.density(FREQUENCIES), heading)
+
+    def excess(damping: float) -> float:
+        moving = spread(abs(heave_transfer(bar, np.array([damping]), FREQUENCIES).body) ** 2 * FREQUENCIES**2, heave)
+        return float(damping - equivalent_damping(drag, payout_speed, moving.rms[0]))
+
+    largest = 1.0 + equivalent_damping(drag, payout_speed, 100.0)
+    damping: Any = brentq(excess, 0.0, largest, xtol=1e-6) if drag > 0.0 else 0.0
+    answer = heave_transfer(bar, np.array([damping]), FREQUENCIES)
+    velocity = spread(abs(answer.body) ** 2 * FREQUENCIES**2, heave).rms[0]
+    body, end, top = (Spread(*(part[0] for part in spread(abs(h) ** 2, heave))) for h in answer[:3])
+    end_mean = operation.payload.wet_weight - mean_drag(drag, payout_speed, velocity)
+    hanging = operation.cable.wet_line_density * operation.environment.gravity * depth
+    sheave = Spread(*(part[0] for part in spread(np.ones((1, FREQUENCIES.size)), heave)))
+    return Response(depth, axial_period(bar), sheave, body, end, top, float(damping), end_mean, end_mean + hanging)
+
+
+def sheave_energy(operation: Operation, density: np.ndarray, heading: float) -> np.ndarray:
+    """Spectral density of the sheave's heave after compensation, at :data:`FREQUENCIES`, m2 s/rad."""
+    ship = operation.vessel
+    vessel = BoxVessel(ship.length, ship.breadth, ship.draught, ship.block_coefficient, operation.environment.gravity)
+    heave = heave_of_point(vessel, FREQUENCIES, heading, ship.sheave_forward, ship.sheave_port)
+    return density * abs(heave * residual(operation.compensation, FREQUENCIES)) ** 2
+
+
+def residual(compensation: HeaveCompensation | None, omega: np.ndarray) -> np.ndarray:
+    """Share of the sheave's heave that is left, complex.
+
+    >>> drive = HeaveCompensation(lag=0.05, bandwidth=6.0)
+    >>> float(np.round(abs(residual(drive, np.array(2 * np.pi / 8.0))), 4))
+    0.2232
+    """
+    if compensation is None:
+        return np.ones_like(omega) + 0j
+    own, lag = compensation.bandwidth, compensation.lag
+    drive = own**2 / (own**2 - omega**2 + 2j * compensation.damping * own * omega)
+    return 1.0 - compensation.gain * np.exp(-1j * omega * lag) * drive
+
+
+def spread(gain: np.ndarray, energy: np.ndarray) -> Spread:
+    """Spread of responses whose squared gains, shape (dampings, frequencies), meet seas of shape (frequencies, ...)."""
+    weighted = energy * STEPS if energy.ndim == 1 else energy * STEPS[:, None]
+    zeroth, second = gain @ weighted, (gain * FREQUENCIES**2) @ weighted
+    return Spread(np.sqrt(zeroth), 2.0 * np.pi * np.sqrt(zeroth / np.maximum(second, np.finfo(float).tiny)))
+
+
+def equivalent_damping(quadratic: float, mean: float, rms: float) -> float:
+    """Damping with the least mean square error, 2 D E|u| for u Gaussian with this mean and rms, N s/m.
+
+    >>> round(equivalent_damping(4500.0, 0.0, 0.5) / (4500.0 * 0.5), 6)
+    1.595769
+    """
+    if rms <= 0.0:
+        return 2.0 * quadratic * abs(mean)
+    ratio = mean / rms
+    spread_part = rms * np.sqrt(2.0 / np.pi) * np.exp(-(ratio**2) / 2.0)
+    return float(2.0 * quadratic * (spread_part + mean * erf(ratio / np.sqrt(2.0))))
+
+
+def mean_drag(quadratic: float, mean: float, rms: float) -> float:
+    """D E[|u| u], N: what steady motion through the water takes from the tension, more of it in waves."""
+    if rms <= 0.0:
+        return quadratic * abs(mean) * mean
+    ratio = mean / rms
+    odd = (1.0 + ratio**2) * erf(ratio / np.sqrt(2.0)) + ratio * np.sqrt(2.0 / np.pi) * np.exp(-(ratio**2) / 2.0)
+    return float(quadratic * rms**2 * odd)
+
+
+def exceedance(level: np.ndarray | float, process: Spread, duration: float) -> np.ndarray:
+    """Probability that a process passes a level above its mean within a time, s."""
+    scaled = np.maximum(level, 0.0) / np.maximum(process.rms, np.finfo(float).tiny)
+    return -np.expm1(-duration / process.period * np.exp(-(scaled**2) / 2.0))
+
+
+def largest_rms(level: np.ndarray | float, period: np.ndarray, probability: float, duration: float) -> np.ndarray:
+    """The rms with which a level is passed within a time with just this probability; 0 where the level is not above 0.
+
+    Where the time is shorter than it takes to pass the mean as often as allowed, any rms will do: infinity.
+    """
+    passes = duration / period / -np.log1p(-probability)
+    with np.errstate(divide="ignore"):
+        return np.where(passes > 1.0, np.maximum(level, 0.0) / np.sqrt(2.0 * np.log(np.maximum(passes, 1.0))), np.inf)

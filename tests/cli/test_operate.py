@@ -1,0 +1,50 @@
+"""`umbilical operate` and `umbilical lower`: verdict, exit code, files, refusals."""
+
+from __future__ import annotations
+
+import pytest
+import xarray
+
+ONE = ("operate", "work-class", "--depth", "3000", "--period", "8", "--heading", "135")
+
+
+@pytest.mark.parametrize(("height", "code", "word"), [("2.5", 0, "is workable"), ("2.7", 7, "is NOT workable")])
+def test_the_verdict_stands_in_the_first_line_and_the_exit_code(umbilical, height, code, word):
+    done = umbilical(*ONE, "--height", height)
+    assert done.code == code
+    assert word in done.out.splitlines()[0]
+    assert umbilical(*ONE, "--height", height, "--json").document()["holds"] is (code == 0)
+
+
+def test_limits_are_stored_and_drawn(umbilical, tmp_path):
+    done = umbilical("operate", "work-class", "--depth", "500:3000:3", "--period", "6:10:3", "--heading", "135,180",
+                     "--out", tmp_path / "map.nc", "--plot", tmp_path / "map.png")  # fmt: skip
+    assert done.code == 0
+    with xarray.open_dataset(tmp_path / "map.nc") as data:
+        assert data["limit"].dims == ("depth", "period", "heading")
+        assert data["limit"].attrs["units"] == "m"
+    assert (tmp_path / "map.png").stat().st_size > 10_000
+
+
+def test_lowering_judges_the_accepted_risk(umbilical, tmp_path):
+    few = ("lower", "work-class", "--depth", "100:3000:6", "--speed", "0.5:1.5:3", "--height", "1.5")
+    assert umbilical(*few, "--risk", "0.5", "--plot", tmp_path / "low.png").code == 0
+    assert umbilical(*few, "--risk", "1e-12").code == 7
+    assert umbilical(*few, "--json").document()["best_speed"] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--depth", "0:100:5"), "from 1 to 12000"),
+        (("--depth", "deep"), "FROM:TO:COUNT"),
+        (("--period", "8:9:1000000"), "2 to 1000"),
+        (("--criterion", "slack"), "slack=P/TIME"),
+        (("--set", "payload.mass=-1"), "payload.mass"),
+        (("--out", "limits.csv"), "must end with"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(umbilical, arguments, words):
+    done = umbilical("operate", "work-class", *arguments)
+    assert done.code in (2, 4)
+    assert words in done.err

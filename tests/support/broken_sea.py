@@ -1,0 +1,79 @@
+"""Deliberately wrong seas and vessels: each breaks one thing on its way into the screening."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+from umbilical.screening import axial, operate, response
+from umbilical.sea import components, spectrum, vessel
+from umbilical.verify import sea
+
+
+def two_sided_spectrum(patch: pytest.MonkeyPatch) -> None:
+    """Half of the energy at negative frequencies, which nobody adds."""
+    right = spectrum.Spectrum.density
+    patch.setattr(spectrum.Spectrum, "density", lambda self, omega: right(self, omega) / 2.0)
+
+
+def energy_for_amplitude(patch: pytest.MonkeyPatch) -> None:
+    """Amplitudes that are the energy of their bin."""
+
+    def wrong(sea_state: spectrum.Spectrum, count: int, **options: Any) -> components.Components:
+        waves = components.discretise(sea_state, count, **options)
+        return waves._replace(amplitude=waves.amplitude**2 / 2.0)
+
+    patch.setattr(sea, "discretise", wrong)
+
+
+def degrees_for_radians(patch: pytest.MonkeyPatch) -> None:
+    """Headings in degrees where radians are meant."""
+    right = vessel.BoxVessel.motions
+    patch.setattr(vessel.BoxVessel, "motions", lambda self, omega, heading: right(self, omega, np.degrees(heading)))
+
+
+def lead_for_lag(patch: pytest.MonkeyPatch) -> None:
+    """Motions ahead of the wave by what they should be behind it."""
+    right = vessel.BoxVessel.motions
+
+    def wrong(self: vessel.BoxVessel, omega: np.ndarray, heading: float) -> vessel.Motions:
+        return vessel.Motions(*(np.conj(part) for part in right(self, omega, heading)))
+
+    patch.setattr(vessel.BoxVessel, "motions", wrong)
+
+
+def added_mass_forgotten(patch: pytest.MonkeyPatch) -> None:
+    """The body moves without the water around it."""
+    for room in (response, _module(operate)):
+        right = room.bar_of
+        patch.setattr(
+            room, "bar_of", lambda operation, length, right=right: right(operation, length)._replace(mass=9e3)
+        )
+
+
+def half_the_body(patch: pytest.MonkeyPatch) -> None:
+    """Half of the mass at the end of the bar."""
+    right = axial.heave_transfer
+    for room in (response, _module(operate), sea):
+        patch.setattr(
+            room, "heave_transfer", lambda bar, damping, omega: right(bar._replace(mass=bar.mass / 2.0), damping, omega)
+        )
+
+
+def drive_that_leads(patch: pytest.MonkeyPatch) -> None:
+    """A winch that knows the heave before it comes."""
+    right = response.residual
+
+    def wrong(drive: Any, omega: np.ndarray) -> np.ndarray:
+        return right(drive and drive.model_copy(update={"lag": -drive.lag}), omega)
+
+    for room in (response, sea):
+        patch.setattr(room, "residual", wrong)
+
+
+def _module(function: Any) -> Any:
+    """The module a function stands in; the package shows the function under the module's own name."""
+    return sys.modules[function.__module__]
