@@ -24,6 +24,8 @@ from numba.core import config as numba_config
 config: Any = numba_config  # its settings are made at run time, unknown to type checkers
 
 _FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
+_BESIDES = ("compile.py", "frames.py")
+"""Files outside these floors that the compiled code depends on."""
 _PACKAGE = Path(__file__).parent
 
 
@@ -38,9 +40,10 @@ def _user_cache() -> Path:
 
 
 def _fingerprint() -> str:
-    """Hash of all kernel sources, the versions that compile them and the flags that change the code."""
+    """Hash of all kernel sources, of what declares their records, of versions and of flags that change the code."""
     digest = hashlib.sha256()
-    for source in [Path(__file__), *(p for f in _FLOORS_WITH_KERNELS for p in sorted((_PACKAGE / f).rglob("*.py")))]:
+    besides = [_PACKAGE / name for name in _BESIDES]
+    for source in besides + [p for f in _FLOORS_WITH_KERNELS for p in sorted((_PACKAGE / f).rglob("*.py"))]:
         digest.update(source.relative_to(_PACKAGE).as_posix().encode())
         digest.update(source.read_bytes())
     versions = (platform.python_version(), numba.__version__, llvmlite.__version__, numpy.__version__)

@@ -166,6 +166,33 @@ CHANNELS: dict[str, Quantity] = {
     "energy_residual":         Quantity("J", "", "energy minus its start and all work: what the discretisation leaves open"),
 }
 
+# What plant, sensors and controller remember or get from outside, beside what a run publishes.
+STATES: dict[str, Quantity] = {
+    # constants of a motor written in z1 = w, z2 = (K_t/J) i
+    "f11":                     Quantity("1/s", "f_{11}", "-B/J", "(44)"),
+    "f12":                     Quantity("1/rad", "f_{12}", "-K_Q/J", "(44)"),
+    "f13":                     Quantity("1/(kg m2)", "f_{13}", "1/J", "(44)"),
+    "f21":                     Quantity("1/s2", "f_{21}", "-K_t K_b/(J L)", "(45)"),
+    "f22":                     Quantity("1/s", "f_{22}", "-R/L", "(45)"),
+    "f23":                     Quantity("rad/(V s3)", "f_{23}", "K_t/(J L)", "(45)"),
+    "current_scale":           Quantity("rad/(A s2)", "", "K_t/J: scaled current over current", "(46)"),
+    # outer law and its observers
+    "updates":                 Quantity("1", "", "updates of the controller so far"),
+    "filtered_signal":         Quantity("", r"\pi_1, \chi_1", "first state of a high-gain observer, in its signal's unit", "(17), (19)"),
+    "filtered_rate":           Quantity("", r"\pi_2, \chi_2", "second state of a high-gain observer: the estimated rate times the time constant", "(17), (19)"),
+    "disturbance_state":       Quantity("N", r"\phi", "state of the disturbance observer", "(21)"),
+    # adaptive allocation, for each of kappa_0 ... kappa_n
+    "kappa_decay":             Quantity("1", "", "share of kappa that the leak leaves after one period", "(27)"),
+    "kappa_gain":              Quantity("", "", "fall of kappa over one period per theta u_a", "(27)"),
+    "kappa_lower":             Quantity("", "", "kappa is projected to no less"),
+    "kappa_upper":             Quantity("", "", "kappa is projected to no more"),
+    # loop of a motor
+    "speed_reference_rate":    Quantity("rad/s2", r"\dot\omega_d", "rate of the filtered speed reference", "(59)"),
+    "speed_reference_curvature": Quantity("rad/s3", r"\ddot\omega_d", "second derivative of the filtered speed reference", "(59)"),
+    "motor_disturbance_state": Quantity("rad/s3", r"\upsilon", "state of a motor's disturbance observer", "(61)"),
+    "held_drive":              Quantity("rad/s3", "V", "scaled voltage f23 U that is held", "(61)"),
+}
+
 METRICS: dict[str, Quantity] = {
     "tip_peak":                Quantity("m", "", "largest |y(l,t)|"),
     "tip_rms":                 Quantity("m", "", "root mean square of y(l,t)"),
@@ -203,6 +230,21 @@ CERTIFICATE: dict[str, Quantity] = {
     "residual":                Quantity("W", r"\Theta", "what bounded loads leave: V' <= -(rate - spent) V + residual", "(36)"),
 }
 # fmt: on
+
+
+def find(name: str) -> Quantity:
+    """Look up what a name inside a loop stands for: a channel, a state or a parameter.
+
+    Raises:
+        KeyError: there is no such quantity.
+
+    >>> find("tip_velocity").unit
+    'm/s'
+    """
+    for table in (CHANNELS, STATES, PARAMETERS):
+        if name in table:
+            return table[name]
+    raise KeyError(f"{name}: no channel, state or parameter of umbilical.quantities has this name")
 
 
 def label(name: str, quantity: Quantity | None = None) -> str:
