@@ -9,16 +9,9 @@ import umbilical
 from umbilical.analysis.controller import motor_law, outer_law, root_slope, shares
 from umbilical.analysis.discrete import Discrete, delayed, held
 from umbilical.control import cascade
-from umbilical.control.contract import (
-    DEMAND,
-    MOTOR_CURRENT,
-    MOTOR_SPEED,
-    THRUST_COMMAND,
-    VOLTAGE,
-    make_decision,
-    make_readings,
-)
-from umbilical.relations.formulas import MotorConstants, soft_signed_root
+from umbilical.control.contract import make_decision, make_readings
+from umbilical.frames import numbers
+from umbilical.relations.formulas import soft_signed_root
 
 PAPER = umbilical.load("paper")
 
@@ -27,12 +20,12 @@ def outer_step(scenario, start: np.ndarray) -> np.ndarray:
     """States and command after one update of the real outer law, from states and the four readings."""
     settings, state = cascade.make_settings(scenario), cascade.make_state(scenario)
     readings, decision = make_readings(2), make_decision(2)
-    state.updates[0] = 1
-    state.outer[:] = start[:5]
-    decision.outer[THRUST_COMMAND] = start[5]
-    readings.boundary[:4] = start[6:]
+    state.outer[0] = (1, tuple(start[:2]), tuple(start[2:4]), (start[4],))
+    decision.outer[0].thrust_command = start[5]
+    readings.tip[0] = tuple(start[6:])
     cascade.update_outer(settings.outer, state, readings, decision)
-    return np.append(state.outer, decision.outer[THRUST_COMMAND])
+    _, velocity, slope, disturbance = numbers(state.outer[0])
+    return np.array([*velocity, *slope, *disturbance, decision.outer[0].thrust_command])
 
 
 @pytest.mark.parametrize(
@@ -63,18 +56,19 @@ def motor_step(scenario, start: np.ndarray) -> np.ndarray:
     """Memory and voltage of motor 1 after one update of its real loop, from memory, demand, speed and current."""
     settings, state = cascade.make_settings(scenario), cascade.make_state(scenario)
     readings, decision = make_readings(2), make_decision(2)
-    state.updates[0] = 1
-    state.motors[0] = start[:5]
-    decision.motors[DEMAND, 0] = start[5]
-    readings.motors[MOTOR_SPEED, 0], readings.motors[MOTOR_CURRENT, 0] = start[6:]
+    state.outer[0].updates = 1
+    state.motors[0] = (tuple(start[:3]), *start[3:5])
+    decision.motors[0].demand = start[5]
+    readings.motors[0] = tuple(start[6:])
     cascade.update_motors(settings.motors, state, readings, decision)
-    return np.append(state.motors[0], decision.motors[VOLTAGE, 0])
+    reference, *rest = numbers(state.motors[0])
+    return np.array([*reference, *rest, decision.motors[0].motor_voltage])
 
 
 @pytest.mark.parametrize("demand", [30.0, -200.0])
 def test_motor_law_is_the_central_difference_at_a_steady_speed(demand):
     motors = cascade.make_settings(PAPER).motors
-    constants = MotorConstants(*map(float, motors.constants[0]))
+    constants = motors.nominal[0]
     speed = soft_signed_root(demand, motors.command_filter.width)
     current = -(constants.f11 + constants.f12 * abs(speed)) * speed / constants.current_scale
     drive = -constants.f21 * speed - constants.f22 * constants.current_scale * current

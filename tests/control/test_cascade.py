@@ -11,7 +11,8 @@ import pytest
 import umbilical
 from tests.support.scenarios import run, small
 from umbilical import Command, Measurement
-from umbilical.control.cascade import SLOPE_MEMORY, Cascade, to_readings
+from umbilical.control.cascade import Cascade, to_readings
+from umbilical.frames import numbers
 from umbilical.relations.formulas import soft_signed_root
 
 pytestmark = pytest.mark.nojit
@@ -35,9 +36,10 @@ def test_first_update_advances_no_filter() -> None:
     (command,), (memory, decision) = updates(Cascade(umbilical.load("paper")), [SAMPLE])
     tension = 500.0 * (10.0 - 0.1)
     assert command.thrust == pytest.approx(-1e4 * 0.01 * 0.01 + tension * 0.01, rel=1e-14)
-    assert memory.outer[:4].tolist() == [0.2, 0.0, 0.01, 0.0]
-    assert decision.motors[2].tolist() == [0.0, 0.0], "the command filters are at zero"
-    assert memory.updates[0] == 1
+    outer = memory.outer[0]
+    assert numbers(outer.velocity) + numbers(outer.slope) == (0.2, 0.0, 0.01, 0.0)
+    assert decision.motors["speed_reference"].tolist() == [0.0, 0.0], "the command filters are at zero"
+    assert outer.updates == 1
 
 
 def test_second_update_advances_every_filter_once() -> None:
@@ -45,12 +47,13 @@ def test_second_update_advances_every_filter_once() -> None:
     _, (memory, decision) = updates(Cascade(umbilical.load("paper")), [SAMPLE, moved])
     eps, h = 0.005, 1e-3
     step = h / eps * np.exp(-h / eps)  # pi2 after one period of a unit step
-    assert memory.outer[1] == pytest.approx(0.01 * step, rel=1e-9)
-    assert memory.outer[SLOPE_MEMORY + 1] == pytest.approx(0.002 * step, rel=1e-9)
-    assert decision.outer[2] == pytest.approx(0.01 * step / eps, rel=1e-9)
-    root, x = soft_signed_root(decision.motors[1, 0], 1e-3), 200.0 * h
-    assert decision.motors[2, 0] == pytest.approx(root * (1.0 - np.exp(-x) * (1.0 + x + x * x / 2.0)), rel=1e-9)
-    assert decision.motors[2, 0] == decision.motors[2, 1] != 0.0
+    assert memory.outer[0].velocity.filtered_rate == pytest.approx(0.01 * step, rel=1e-9)
+    assert memory.outer[0].slope.filtered_rate == pytest.approx(0.002 * step, rel=1e-9)
+    assert decision.outer[0].tip_velocity_estimate == pytest.approx(0.01 * step / eps, rel=1e-9)
+    root, x = soft_signed_root(decision.motors[0].demand, 1e-3), 200.0 * h
+    first, second = decision.motors["speed_reference"]
+    assert first == pytest.approx(root * (1.0 - np.exp(-x) * (1.0 + x + x * x / 2.0)), rel=1e-9)
+    assert first == second != 0.0
 
 
 def test_outer_law_keeps_to_its_own_period() -> None:
@@ -111,11 +114,12 @@ def test_believed_factors_share_the_thrust() -> None:
     believed = {"control.nominal.thrust_coefficients": [3.0, -1.0]}
     (command,), (_, decision) = updates(Cascade(umbilical.load("paper", believed)), [SAMPLE])
     assert command.thrust is not None
-    assert decision.motors[1].tolist() == [command.thrust / 4.0, -command.thrust / 4.0]
+    assert decision.motors["demand"].tolist() == [command.thrust / 4.0, -command.thrust / 4.0]
 
 
 def test_absent_sensors_read_not_a_number() -> None:
     readings = to_readings(SAMPLE)
-    assert np.isnan(readings.boundary[[2, 3]]).all()
-    assert readings.boundary[[0, 1, 4, 5, 6]].tolist() == [0.2, 0.01, 450.0, 0.5, 0.1]
-    assert readings.motors.tolist() == [[3.0, -2.0], [5.0, -4.0]]
+    displacement, slope, *rates = numbers(readings.tip[0])
+    assert np.isnan(rates).all()
+    assert (displacement, slope, *numbers(readings.winch[0])) == (0.2, 0.01, 450.0, 0.5, 0.1)
+    assert [numbers(motor) for motor in readings.motors] == [(3.0, 5.0), (-2.0, -4.0)]

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from umbilical.control.allocation.adaptive import adapt, adaptive_demand, initial_kappa, make_adaptation
 from umbilical.control.allocation.known import known_demand
+from umbilical.control.contract import MotorDecision
+from umbilical.control.nominal import NominalMotor
 from umbilical.control.outer.boundary import boundary_error, boundary_thrust
 from umbilical.control.outer.pd import pd_thrust
 from umbilical.scenario.control import AdaptiveAllocation, KnownFactors
@@ -14,6 +18,14 @@ from umbilical.scenario.control import AdaptiveAllocation, KnownFactors
 pytestmark = pytest.mark.nojit
 
 PERIOD = 1e-3
+
+
+def demands(allocate: Any, coefficients: tuple[float, ...], *arguments: Any) -> np.ndarray:
+    """What a law of allocation demands of motors with these thrust coefficients."""
+    nominal, decision = NominalMotor.many(len(coefficients)), MotorDecision.many(len(coefficients))
+    nominal["thrust_coefficient"] = coefficients
+    allocate(nominal, *arguments, decision)
+    return decision["demand"]
 
 
 def adaptive(**changes: object) -> AdaptiveAllocation:
@@ -36,8 +48,7 @@ def test_pd_term_by_term() -> None:
 @pytest.mark.parametrize("coefficients", [(1.2, 0.8), (1.2, -0.8), (-3.0,), (0.5, -0.2, 1.0)])
 def test_known_factors_deliver_the_thrust(coefficients: tuple[float, ...]) -> None:
     """Each motor gets the same size of demand in its own direction: the thrusts add up to the command."""
-    demand = np.zeros(len(coefficients))
-    known_demand(np.array(coefficients), 100.0, demand)
+    demand = demands(known_demand, coefficients, 100.0)
     assert np.dot(coefficients, demand) == pytest.approx(100.0, rel=1e-14)
     assert len({abs(u) for u in demand}) == 1
     assert (np.sign(demand) == np.sign(coefficients)).all()
@@ -45,11 +56,9 @@ def test_known_factors_deliver_the_thrust(coefficients: tuple[float, ...]) -> No
 
 def test_adaptive_demand_uses_signs_only() -> None:
     """``U_i = sgn(K_Ti) (kappa_0 alpha_c + kappa_1 + ... + kappa_n)``."""
-    demand, kappa = np.zeros(2), np.array([0.25, 3.0, -1.0])
-    adaptive_demand(np.array([1.2, -0.8]), kappa, 40.0, demand)
-    assert demand.tolist() == [12.0, -12.0]
-    adaptive_demand(np.array([7.0, -0.1]), kappa, 40.0, demand)
-    assert demand.tolist() == [12.0, -12.0]
+    kappa = np.array([0.25, 3.0, -1.0])
+    for coefficients in ((1.2, -0.8), (7.0, -0.1)):
+        assert demands(adaptive_demand, coefficients, kappa, 40.0).tolist() == [12.0, -12.0]
 
 
 def test_adaptive_law_is_exact_for_a_held_error() -> None:

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 from umbilical.control.linear import held_input_form
 from umbilical.control.observers.disturbance import (
+    DisturbanceMemory,
     advance_disturbance,
     disturbance_estimate,
     make_disturbance,
@@ -39,7 +40,7 @@ def test_held_input_form_against_an_integration() -> None:
 @pytest.mark.parametrize("record", [None, DisturbanceObserver(enabled=False, gain=5.0, coupling=1.0)])
 def test_absent_disturbance_observer_estimates_nothing(record: DisturbanceObserver | None) -> None:
     observer = make_disturbance(record, PERIOD)
-    state = np.zeros(1)
-    start_disturbance(observer, state, 500.0, 1.0)
-    advance_disturbance(observer, state, 500.0, 1.0, 1.0, 100.0)
-    assert disturbance_estimate(observer, state, 500.0, 1.0) == 0.0
+    memory = DisturbanceMemory.one()
+    start_disturbance(observer, memory, 500.0, 1.0)
+    advance_disturbance(observer, memory, 500.0, 1.0, 1.0, 100.0)
+    assert disturbance_estimate(observer, memory, 500.0, 1.0) == 0.0

@@ -7,12 +7,13 @@ import pytest
 
 import umbilical
 from tests.support.scenarios import constant, open_loop, sine
-from umbilical.engine.linear import SAMPLES, linearise, step_matrix, step_poles
+from umbilical.engine.linear import linearise, step_matrix, step_poles
 from umbilical.engine.loop import World, advance_period
 from umbilical.engine.schedule import stretch
 from umbilical.engine.sensing import read_truth
 from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step
+from umbilical.frames import numbers
 from umbilical.plant.cable import PRESENT, TIP_VELOCITY
 from umbilical.plant.exogenous import Outside, Steps
 
@@ -55,7 +56,7 @@ def test_samples_are_what_the_sensors_read() -> None:
     enter_step(world.plant, world.state, inputs, 0)
     read_truth(world.state, world.readings)
     found = linearise(scenario).samples @ state_of(world)
-    np.testing.assert_allclose(found, world.readings.boundary[[*SAMPLES]], rtol=1e-11, atol=1e-14)
+    np.testing.assert_allclose(found, numbers(world.readings.tip[0]), rtol=1e-11, atol=1e-14)
 
 
 def test_poles_are_those_of_the_step_matrix() -> None:

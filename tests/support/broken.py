@@ -187,7 +187,7 @@ def cross_term_of_the_inner_law(patch: pytest.MonkeyPatch) -> None:
     right = backstepping.backstepping_drive
 
     def wrong(constants: Any, gains: Any, speed: float, current: float, reference: Any) -> float:
-        return right(constants, gains, speed, current, reference) + 2.0 * (speed - reference[0])
+        return right(constants, gains, speed, current, reference) + 2.0 * (speed - reference.speed_reference)
 
     patch.setattr(backstepping, "backstepping_drive", wrong)
 
@@ -206,7 +206,7 @@ def wrong_sign_of_the_adaptive_law(patch: pytest.MonkeyPatch) -> None:
 
     def wrong(*arguments: Any) -> adaptive.Adaptation:
         law = right(*arguments)
-        law.form[adaptive.GAIN] *= -1.0
+        law.steps["kappa_gain"] *= -1.0
         return law
 
     patch.setattr("umbilical.control.cascade.make_adaptation", wrong)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.analysis.discrete import Discrete
-from umbilical.control.cascade import BOUNDARY, COEFFICIENT, NONE, PD, Motors, Outer
+from umbilical.control.cascade import BOUNDARY, NONE, PD, Motors, Outer
 from umbilical.relations.formulas import MotorConstants
 
 READINGS = 4
@@ -84,7 +84,7 @@ def root_slope(demand: float, width: float) -> float:
 
 def shares(motors: Motors, kappa: np.ndarray) -> np.ndarray:
     """Demand on each motor per commanded thrust, rad2/(N s2), kappa frozen where it adapts (23)."""
-    coefficients = motors.thrusters[COEFFICIENT]
+    coefficients = motors.nominal["thrust_coefficient"]
     factor = kappa[0] if motors.adaptation.enabled else 1.0 / np.abs(coefficients).sum()
     return np.sign(coefficients) * factor
 

@@ -22,7 +22,7 @@ from umbilical.analysis.controller import READINGS, motor_law, outer_law, shares
 from umbilical.analysis.discrete import Discrete, delayed, held
 from umbilical.analysis.impedance import HangingCable, Waves, payload_stiffness, upward_asymptote, waves
 from umbilical.control.cascade import NONE, CascadeSettings, make_settings, make_state
-from umbilical.relations.formulas import MotorConstants, soft_signed_root
+from umbilical.relations.formulas import soft_signed_root
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.scenario import Scenario
 
@@ -140,7 +140,7 @@ def _drive(scenario: Scenario, settings: CascadeSettings, number: int, share: fl
     ages = (0, round(sensors.motor_speed.latency / period), round(sensors.motor_current.latency / period))
     demand = share * thrust + np.sign(share) * make_state(scenario).kappa[1:].sum()
     speed = float(soft_signed_root(demand, motors.command_filter.width))
-    constants = MotorConstants(*map(float, motors.constants[number]))
+    constants = motors.nominal[number]
     law = delayed(motor_law(motors, constants, abs(speed), abs(demand)), ages)
     rates, volts = motor_rates(motor, abs(speed))
     return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * abs(speed))

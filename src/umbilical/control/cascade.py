@@ -14,35 +14,14 @@ import numpy as np
 from umbilical.compile import glue, kernel
 from umbilical.control.allocation.adaptive import Adaptation, adapt, adaptive_demand, initial_kappa, make_adaptation
 from umbilical.control.allocation.known import known_demand
-from umbilical.control.contract import (
-    BOUNDARY_ERROR,
-    DEMAND,
-    DISTURBANCE_ESTIMATE,
-    MOTOR_CURRENT,
-    MOTOR_DISTURBANCE,
-    MOTOR_SPEED,
-    PAYOUT_ACCELERATION,
-    SLOPE_RATE_ESTIMATE,
-    SPEED_REFERENCE,
-    THRUST_COMMAND,
-    TIP_DISPLACEMENT,
-    TIP_SLOPE,
-    TIP_SLOPE_RATE,
-    TIP_VELOCITY,
-    VELOCITY_ESTIMATE,
-    VOLTAGE,
-    Command,
-    Decision,
-    Measurement,
-    Readings,
-    make_decision,
-    make_readings,
-)
+from umbilical.control.contract import Command, Decision, Measurement, Readings, make_decision, make_readings
 from umbilical.control.motor.backstepping import Backstepping, backstepping_drive
-from umbilical.control.motor.command_filter import CommandFilter, advance_filter, make_command_filter
+from umbilical.control.motor.command_filter import CommandFilter, Reference, advance_filter, make_command_filter
 from umbilical.control.motor.disturbance import advance_motor_disturbance, start_motor_disturbance
+from umbilical.control.nominal import NominalMotor, make_nominal_motors
 from umbilical.control.observers.disturbance import (
     Disturbance,
+    DisturbanceMemory,
     advance_disturbance,
     disturbance_estimate,
     make_disturbance,
@@ -50,6 +29,7 @@ from umbilical.control.observers.disturbance import (
 )
 from umbilical.control.observers.high_gain import (
     HighGain,
+    HighGainMemory,
     advance_high_gain,
     derivative_estimate,
     make_high_gain,
@@ -57,16 +37,12 @@ from umbilical.control.observers.high_gain import (
 )
 from umbilical.control.outer.boundary import boundary_error, boundary_thrust
 from umbilical.control.outer.pd import pd_thrust
-from umbilical.relations.formulas import MotorConstants, motor_constants, tension
+from umbilical.frames import Frame, integer, part, real
+from umbilical.relations.formulas import tension
 from umbilical.scenario.control import BoundaryLaw, MotorLoop, ProportionalDerivative
 from umbilical.scenario.scenario import Scenario
 
 NONE, PD, BOUNDARY = range(3)
-
-# Places in CascadeState.outer and, per motor, in CascadeState.motors (the filter has the first three).
-VELOCITY_MEMORY, SLOPE_MEMORY, PHI = 0, 2, 4
-UPSILON, HELD_DRIVE = 3, 4
-COEFFICIENT, LIMIT = range(2)  # rows of Motors.thrusters
 
 
 class Outer(NamedTuple):
@@ -84,16 +60,11 @@ class Outer(NamedTuple):
 
 
 class Motors(NamedTuple):
-    """Settings of allocation and motor loops.
-
-    ``constants`` holds the seven of :class:`MotorConstants` for each motor, shape (n, 7); ``thrusters`` its
-    believed K_T and voltage limit, shape (2, n).
-    """
+    """Settings of allocation and motor loops; ``nominal`` is one record per motor."""
 
     driven: bool
-    thrusters: np.ndarray
+    nominal: NominalMotor
     adaptation: Adaptation
-    constants: np.ndarray
     command_filter: CommandFilter
     backstepping: Backstepping
     observer_gain: float
@@ -108,20 +79,35 @@ class CascadeSettings(NamedTuple):
     outer_every: int
 
 
+class OuterMemory(Frame):
+    """What the outer law and its observers remember."""
+
+    updates = integer()
+    velocity = part(HighGainMemory)
+    slope = part(HighGainMemory)
+    disturbance = part(DisturbanceMemory)
+
+
+class MotorMemory(Frame):
+    """What the loop of one motor remembers."""
+
+    reference = part(Reference)
+    motor_disturbance_state = real()
+    held_drive = real()
+
+
 class CascadeState(NamedTuple):
-    """What the built-in controller remembers, arrays that its kernels change in place.
+    """What the built-in controller remembers, changed in place by its kernels.
 
     Attributes:
-        updates: updates so far, shape (1,).
-        outer: pi1, pi2 of the velocity observer; chi1, chi2 of the slope observer; phi: shape (5,).
+        outer: one record.
         kappa: adaptive allocation, shape (n + 1,).
-        motors: w_d, w_d', w_d'' of the command filter; ups; held V: shape (n, 5).
+        motors: one record per motor.
     """
 
-    updates: np.ndarray
-    outer: np.ndarray
+    outer: OuterMemory
     kappa: np.ndarray
-    motors: np.ndarray
+    motors: MotorMemory
 
 
 def make_settings(scenario: Scenario) -> CascadeSettings:
@@ -155,17 +141,13 @@ def _outer_settings(scenario: Scenario, period: float) -> Outer:
 
 def _motor_settings(scenario: Scenario, outer_period: float) -> Motors:
     control, nominal = scenario.control, scenario.control.nominal
-    believed = nominal.motors or scenario.motors
-    loop = control.motor_loop
-    coefficients = nominal.thrust_coefficients or tuple(m.thrust_coefficient for m in believed)
-    limits = [np.inf if m.voltage_limit is None else m.voltage_limit for m in believed]
+    loop, count = control.motor_loop, len(nominal.motors or scenario.motors)
     fields = {name: getattr(loop, name) if loop else 1.0 for name in Backstepping._fields}
     gain = loop.observer_gain if loop else 1.0
     return Motors(
         loop is not None and not scenario.ideal_thruster,
-        np.array([coefficients, limits], dtype=float),
-        make_adaptation(control.allocation, len(believed), outer_period),
-        np.array([motor_constants(m) for m in believed], dtype=float).reshape(len(believed), 7),
+        make_nominal_motors(nominal, scenario.motors),
+        make_adaptation(control.allocation, count, outer_period),
         _command_filter(loop, control.period),
         Backstepping(**fields),
         gain,
@@ -191,97 +173,96 @@ def make_state(scenario: Scenario) -> CascadeState:
     """Memory of the controller before its first measurement."""
     n = len(scenario.motors)
     kappa = initial_kappa(scenario.control.allocation, n)
-    return CascadeState(np.zeros(1, dtype=np.int64), np.zeros(5), kappa, np.zeros((n, 5)))
+    return CascadeState(OuterMemory.many(1), kappa, MotorMemory.many(n))
 
 
 @glue
 def start(settings: CascadeSettings, state: CascadeState, readings: Readings) -> None:
     """Observers at rest on the first sample, filters at zero."""
-    outer, motors, seen = settings.outer, settings.motors, readings.boundary
-    state.updates[0] = 0
-    start_high_gain(state.outer[VELOCITY_MEMORY:], seen[TIP_DISPLACEMENT])
-    start_high_gain(state.outer[SLOPE_MEMORY:], seen[TIP_SLOPE])
-    velocity = seen[TIP_VELOCITY] if outer.ideal_rates else 0.0
-    start_disturbance(outer.disturbance, state.outer[PHI:], outer.payload_mass, velocity)
-    for i in range(motors.constants.shape[0]):
-        scaled_current = motors.constants[i, 6] * readings.motors[MOTOR_CURRENT, i]
-        state.motors[i, UPSILON] = start_motor_disturbance(motors.observer_gain, scaled_current)
+    outer, motors, tip, memory = settings.outer, settings.motors, readings.tip[0], state.outer[0]
+    memory.updates = 0
+    start_high_gain(memory.velocity, tip.tip_displacement)
+    start_high_gain(memory.slope, tip.tip_slope)
+    velocity = tip.tip_velocity if outer.ideal_rates else 0.0
+    start_disturbance(outer.disturbance, memory.disturbance, outer.payload_mass, velocity)
+    for i in range(motors.nominal.size):
+        scaled_current = motors.nominal[i].current_scale * readings.motors[i].motor_current
+        state.motors[i].motor_disturbance_state = start_motor_disturbance(motors.observer_gain, scaled_current)
 
 
 @glue
 def update(settings: CascadeSettings, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """One update: the outer law on its own samples, the motor loops on every one."""
     if settings.outer.law != NONE:
-        if state.updates[0] % settings.outer_every == 0:
+        if state.outer[0].updates % settings.outer_every == 0:
             update_outer(settings.outer, state, readings, decision)
             if settings.motors.driven:
                 allocate(settings.motors, state, decision)
         if settings.motors.driven:
             update_motors(settings.motors, state, readings, decision)
-    state.updates[0] += 1
+    state.outer[0].updates += 1
 
 
 @kernel
 def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """Estimate and decide: from the readings at the ROV to the commanded thrust."""
-    seen, out = readings.boundary, decision.outer
-    advance = state.updates[0] > 0
+    tip, out, memory = readings.tip[0], decision.outer[0], state.outer[0]
+    advance = memory.updates > 0
     if advance:
-        advance_high_gain(s.velocity_observer, state.outer[VELOCITY_MEMORY:], seen[TIP_DISPLACEMENT])
-        advance_high_gain(s.slope_observer, state.outer[SLOPE_MEMORY:], seen[TIP_SLOPE])
-    velocity = derivative_estimate(s.velocity_observer, state.outer[VELOCITY_MEMORY:])
-    slope_rate = derivative_estimate(s.slope_observer, state.outer[SLOPE_MEMORY:])
+        advance_high_gain(s.velocity_observer, memory.velocity, tip.tip_displacement)
+        advance_high_gain(s.slope_observer, memory.slope, tip.tip_slope)
+    velocity = derivative_estimate(s.velocity_observer, memory.velocity)
+    slope_rate = derivative_estimate(s.slope_observer, memory.slope)
     if s.ideal_rates:
-        velocity, slope_rate = seen[TIP_VELOCITY], seen[TIP_SLOPE_RATE]
-    out[VELOCITY_ESTIMATE] = velocity
-    out[SLOPE_RATE_ESTIMATE] = slope_rate
+        velocity, slope_rate = tip.tip_velocity, tip.tip_slope_rate
+    out.tip_velocity_estimate = velocity
+    out.tip_slope_rate_estimate = slope_rate
     if s.law == PD:
-        out[THRUST_COMMAND] = pd_thrust(s.gains[0], s.gains[1], seen[TIP_DISPLACEMENT], velocity)
+        out.thrust_command = pd_thrust(s.gains[0], s.gains[1], tip.tip_displacement, velocity)
         return
-    error = boundary_error(s.gains[1], velocity, seen[TIP_SLOPE])
-    pull = tension(0.0, s.gravity - seen[PAYOUT_ACCELERATION], s.payload_mass, 0.0)
-    known = pull * seen[TIP_SLOPE] + s.payload_damping * velocity
+    error = boundary_error(s.gains[1], velocity, tip.tip_slope)
+    pull = tension(0.0, s.gravity - readings.winch[0].payout_acceleration, s.payload_mass, 0.0)
+    known = pull * tip.tip_slope + s.payload_damping * velocity
     if advance:
-        held = out[THRUST_COMMAND]
-        advance_disturbance(s.disturbance, state.outer[PHI:], s.payload_mass, velocity, error, known - held)
-    estimate = disturbance_estimate(s.disturbance, state.outer[PHI:], s.payload_mass, velocity)
-    out[BOUNDARY_ERROR] = error
-    out[DISTURBANCE_ESTIMATE] = estimate
-    out[THRUST_COMMAND] = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, slope_rate, known, estimate)
+        held = out.thrust_command
+        advance_disturbance(s.disturbance, memory.disturbance, s.payload_mass, velocity, error, known - held)
+    estimate = disturbance_estimate(s.disturbance, memory.disturbance, s.payload_mass, velocity)
+    out.boundary_error = error
+    out.disturbance_estimate = estimate
+    out.thrust_command = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, slope_rate, known, estimate)
 
 
 @glue
 def allocate(s: Motors, state: CascadeState, decision: Decision) -> None:
     """Demands on the motors from the commanded thrust."""
-    thrust = decision.outer[THRUST_COMMAND]
+    outer = decision.outer[0]
     if s.adaptation.enabled:
-        if state.updates[0] > 0:
-            adapt(s.adaptation, state.kappa, thrust, decision.outer[BOUNDARY_ERROR])
-        adaptive_demand(s.thrusters[COEFFICIENT], state.kappa, thrust, decision.motors[DEMAND])
+        if state.outer[0].updates > 0:
+            adapt(s.adaptation, state.kappa, outer.thrust_command, outer.boundary_error)
+        adaptive_demand(s.nominal, state.kappa, outer.thrust_command, decision.motors)
     else:
-        known_demand(s.thrusters[COEFFICIENT], thrust, decision.motors[DEMAND])
+        known_demand(s.nominal, outer.thrust_command, decision.motors)
 
 
 @kernel
 def update_motors(s: Motors, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """The loop of every motor: filter the demand, observe the disturbance, set the voltage."""
-    k = s.constants
-    for i in range(k.shape[0]):
-        c = MotorConstants(k[i, 0], k[i, 1], k[i, 2], k[i, 3], k[i, 4], k[i, 5], k[i, 6])
-        speed, scaled_current = readings.motors[MOTOR_SPEED, i], c.current_scale * readings.motors[MOTOR_CURRENT, i]
-        memory = state.motors[i]
-        if state.updates[0] > 0:
-            advance_filter(s.command_filter, memory, decision.motors[DEMAND, i])
-            memory[UPSILON] = advance_motor_disturbance(
-                c, s.observer_gain, s.observer_decay, memory[UPSILON], speed, scaled_current, memory[HELD_DRIVE]
-            )
-        disturbance = memory[UPSILON] + s.observer_gain * scaled_current
-        drive = backstepping_drive(c, s.backstepping, speed, scaled_current, memory) - disturbance
-        voltage = min(max(drive / c.f23, -s.thrusters[LIMIT, i]), s.thrusters[LIMIT, i])
-        memory[HELD_DRIVE] = c.f23 * voltage
-        decision.motors[VOLTAGE, i] = voltage
-        decision.motors[SPEED_REFERENCE, i] = memory[0]
-        decision.motors[MOTOR_DISTURBANCE, i] = disturbance
+    for i in range(s.nominal.size):
+        c, seen, memory, out = s.nominal[i], readings.motors[i], state.motors[i], decision.motors[i]
+        speed, scaled_current = seen.motor_speed, c.current_scale * seen.motor_current
+        if state.outer[0].updates > 0:
+            advance_filter(s.command_filter, memory.reference, out.demand)
+            memory.motor_disturbance_state = advance_motor_disturbance(
+                c, s.observer_gain, s.observer_decay, memory.motor_disturbance_state, speed, scaled_current,
+                memory.held_drive,
+            )  # fmt: skip
+        disturbance = memory.motor_disturbance_state + s.observer_gain * scaled_current
+        drive = backstepping_drive(c, s.backstepping, speed, scaled_current, memory.reference) - disturbance
+        voltage = min(max(drive / c.f23, -c.voltage_limit), c.voltage_limit)
+        memory.held_drive = c.f23 * voltage
+        out.motor_voltage = voltage
+        out.speed_reference = memory.reference.speed_reference
+        out.motor_disturbance_estimate = disturbance
 
 
 class Cascade:
@@ -308,8 +289,8 @@ class Cascade:
         """Thrust and voltages from the kernels; ``state`` is changed in place and handed back."""
         memory, decision = state
         update(self._settings, memory, to_readings(measurement), decision)
-        thrust = float(decision.outer[THRUST_COMMAND])
-        voltage = None if self._scenario.ideal_thruster else decision.motors[VOLTAGE].copy()
+        thrust = float(decision.outer["thrust_command"][0])
+        voltage = None if self._scenario.ideal_thruster else decision.motors["motor_voltage"].copy()
         return Command(thrust, voltage), state
 
 
@@ -318,9 +299,8 @@ def to_readings(m: Measurement) -> Readings:
     readings = make_readings(m.motor_speed.size)
     velocity = np.nan if m.tip_velocity is None else m.tip_velocity
     slope_rate = np.nan if m.tip_slope_rate is None else m.tip_slope_rate
-    readings.boundary[:] = (
-        m.tip_displacement, m.tip_slope, velocity, slope_rate, m.length, m.payout_speed, m.payout_acceleration,
-    )  # fmt: skip
-    readings.motors[MOTOR_SPEED] = m.motor_speed
-    readings.motors[MOTOR_CURRENT] = m.motor_current
+    readings.tip[0] = (m.tip_displacement, m.tip_slope, velocity, slope_rate)
+    readings.winch[0] = (m.length, m.payout_speed, m.payout_acceleration)
+    readings.motors["motor_speed"] = m.motor_speed
+    readings.motors["motor_current"] = m.motor_current
     return readings

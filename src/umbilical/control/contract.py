@@ -19,6 +19,8 @@ from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
+from umbilical.frames import Frame, numbers, real
+
 
 @dataclass(frozen=True, slots=True)
 class Measurement:
@@ -78,59 +80,82 @@ class Controller(Protocol):
         ...
 
 
-# Places of the scalar readings in Readings.boundary.
-TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, TIP_SLOPE_RATE, LENGTH, PAYOUT_SPEED, PAYOUT_ACCELERATION = range(7)
+class TipReadings(Frame):
+    """One sample of the sensors at the ROV."""
+
+    tip_displacement = real()
+    tip_slope = real()
+    tip_velocity = real()
+    tip_slope_rate = real()
 
 
-MOTOR_SPEED, MOTOR_CURRENT = range(2)
+class WinchReadings(Frame):
+    """One sample of the winch, which is known exactly."""
+
+    length = real()
+    payout_speed = real()
+    payout_acceleration = real()
+
+
+class MotorReadings(Frame):
+    """One sample of the sensors in a motor."""
+
+    motor_speed = real()
+    motor_current = real()
 
 
 class Readings(NamedTuple):
-    """The same sample for kernels: ``boundary`` (7,) and ``motors``, speeds and currents, (2, n)."""
+    """One sample of all sensors, for kernels: a record each for ROV and winch, one record per motor."""
 
-    boundary: np.ndarray
-    motors: np.ndarray
+    tip: TipReadings
+    winch: WinchReadings
+    motors: MotorReadings
 
 
-# Places of the scalars in Decision.outer.
-THRUST_COMMAND, BOUNDARY_ERROR, VELOCITY_ESTIMATE, SLOPE_RATE_ESTIMATE, DISTURBANCE_ESTIMATE = range(5)
-# Rows of Decision.motors.
-VOLTAGE, DEMAND, SPEED_REFERENCE, MOTOR_DISTURBANCE = range(4)
+class OuterDecision(Frame):
+    """What the outer law decided and estimated."""
+
+    thrust_command = real()
+    boundary_error = real()
+    tip_velocity_estimate = real()
+    tip_slope_rate_estimate = real()
+    disturbance_estimate = real()
+
+
+class MotorDecision(Frame):
+    """What the loop of one motor decided and estimated."""
+
+    motor_voltage = real()
+    demand = real()
+    speed_reference = real()
+    motor_disturbance_estimate = real()
 
 
 class Decision(NamedTuple):
-    """What the built-in controller decided and estimated, for kernels and for the record.
+    """What the built-in controller decided and estimated, for kernels and for the record; one record per motor."""
 
-    Attributes:
-        outer: thrust command, u_a, estimates of x2, z2 and D, shape (5,).
-        motors: voltages U, V; demands U_i, rad2/s2; filtered w_d, rad/s; estimated f23 d2, rad/s3: shape (4, n).
-    """
-
-    outer: np.ndarray
-    motors: np.ndarray
+    outer: OuterDecision
+    motors: MotorDecision
 
 
 def make_readings(motors: int) -> Readings:
     """Readings of zero."""
-    return Readings(np.zeros(7), np.zeros((2, motors)))
+    return Readings(TipReadings.many(1), WinchReadings.many(1), MotorReadings.many(motors))
 
 
 def make_decision(motors: int) -> Decision:
     """The decision to do nothing."""
-    return Decision(np.zeros(5), np.zeros((4, motors)))
+    return Decision(OuterDecision.many(1), MotorDecision.many(motors))
 
 
 def to_measurement(readings: Readings, ideal_velocity: bool) -> Measurement:
     """The sample as a user's controller sees it; arrays are copies."""
-    b = readings.boundary
+    displacement, slope, *rates = numbers(readings.tip[0])
     return Measurement(
-        tip_displacement=float(b[TIP_DISPLACEMENT]),
-        tip_slope=float(b[TIP_SLOPE]),
-        motor_speed=readings.motors[MOTOR_SPEED].copy(),
-        motor_current=readings.motors[MOTOR_CURRENT].copy(),
-        length=float(b[LENGTH]),
-        payout_speed=float(b[PAYOUT_SPEED]),
-        payout_acceleration=float(b[PAYOUT_ACCELERATION]),
-        tip_velocity=float(b[TIP_VELOCITY]) if ideal_velocity else None,
-        tip_slope_rate=float(b[TIP_SLOPE_RATE]) if ideal_velocity else None,
+        displacement,
+        slope,
+        readings.motors["motor_speed"].copy(),
+        readings.motors["motor_current"].copy(),
+        *numbers(readings.winch[0]),
+        *(rates if ideal_velocity else ()),
     )

@@ -13,11 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from umbilical.control.contract import TIP_DISPLACEMENT, TIP_SLOPE, TIP_SLOPE_RATE, TIP_VELOCITY
+from umbilical.control.contract import TipReadings
 from umbilical.engine.loop import World
 from umbilical.engine.sensing import read_truth
 from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step, find_rates
+from umbilical.frames import numbers
 from umbilical.plant import winch
 from umbilical.plant.cable import PRESENT, RATES, TIP_RATES
 from umbilical.plant.cable import TIP_VELOCITY as VELOCITY_OF_PAYLOAD
@@ -26,7 +27,7 @@ from umbilical.plant.exogenous import Outside, Steps
 from umbilical.plant.multistep import EXPLICIT
 from umbilical.scenario.scenario import Scenario
 
-SAMPLES = (TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, TIP_SLOPE_RATE)
+SAMPLES = tuple(TipReadings.fields)
 
 
 class Linear(NamedTuple):
@@ -157,4 +158,4 @@ def _look(world: World, columns: np.ndarray, size: int) -> tuple[np.ndarray, np.
     find_rates(world.plant, state)
     read_truth(state, world.readings)
     rate = np.append(state.blocks[RATES].ravel(), ends[TIP_RATES])
-    return rate, world.readings.boundary[list(SAMPLES)]
+    return rate, np.array(numbers(world.readings.tip[0]))

@@ -14,7 +14,7 @@ import numpy as np
 from umbilical.compile import entry_kernel, glue
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
-from umbilical.control.contract import THRUST_COMMAND, VOLTAGE, Command, Controller, Decision, Readings, to_measurement
+from umbilical.control.contract import Command, Controller, Decision, Readings, to_measurement
 from umbilical.engine.recording import Log, Tally, measure, store
 from umbilical.engine.sensing import Sensors, SensorState, sense
 from umbilical.engine.stepping import DELIVERED, Plant, PlantState, advance, enter_step
@@ -56,7 +56,7 @@ class Record(NamedTuple):
 def actuate(world: World) -> None:
     """An ideal thruster delivers the new command at once; motors take their time."""
     if world.plant.ideal:
-        world.state.now[DELIVERED] = world.decision.outer[THRUST_COMMAND]
+        world.state.now[DELIVERED] = world.decision.outer[0].thrust_command
 
 
 @glue
@@ -106,7 +106,7 @@ def advance_period(world: World, inputs: Inputs, begin: int, end: int) -> None:
     for i in range(begin, end):
         if i > begin and inputs.refresh[i]:
             enter_step(world.plant, world.state, inputs, i)
-        advance(world.plant, world.state, inputs, i, world.decision.motors[VOLTAGE])
+        advance(world.plant, world.state, inputs, i, world.decision.motors)
 
 
 class BuiltIn:
@@ -161,7 +161,7 @@ class Python:
             self._decide(update)
         if self._through_motors:
             cascade.update_motors(self._drive.motors, self._memory, world.readings, world.decision)
-        self._memory.updates[0] += 1
+        self._memory.outer[0].updates += 1
 
     def _decide(self, update: int) -> None:
         """Ask the controller, and put its command where the kernels find it."""
@@ -177,9 +177,9 @@ class Python:
             name = type(self._controller).__name__
             raise ControllerError(f"{name} failed at t = {t:g} s: {type(error).__name__}: {error}") from error
         check_command(command, world, t, can_drive=self._drive.motors.driven)
-        world.decision.outer[THRUST_COMMAND] = np.nan if command.thrust is None else command.thrust
+        world.decision.outer[0].thrust_command = np.nan if command.thrust is None else command.thrust
         if command.voltage is not None:
-            world.decision.motors[VOLTAGE] = command.voltage
+            world.decision.motors["motor_voltage"] = command.voltage
         self._through_motors = command.voltage is None and not world.plant.ideal
         if self._through_motors:
             cascade.allocate(self._drive.motors, self._memory, world.decision)
@@ -199,6 +199,6 @@ def check_command(command: object, world: World, t: float, *, can_drive: bool) -
         raise ControllerError(f"{where} gives no {need}")
     if command.voltage is None and not world.plant.ideal and not can_drive:
         raise ControllerError(f"{where} gives thrust only; add control.motor_loop, or set ideal_thruster = true")
-    if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.shape[1],):
-        shape, motors = np.shape(command.voltage), world.decision.motors.shape[1]
+    if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.size,):
+        shape, motors = np.shape(command.voltage), world.decision.motors.size
         raise ControllerError(f"{where} gives voltages of shape {shape}; there are {motors} motors")

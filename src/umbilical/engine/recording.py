@@ -7,18 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import (
-    BOUNDARY_ERROR,
-    DEMAND,
-    DISTURBANCE_ESTIMATE,
-    MOTOR_DISTURBANCE,
-    SLOPE_RATE_ESTIMATE,
-    SPEED_REFERENCE,
-    THRUST_COMMAND,
-    VELOCITY_ESTIMATE,
-    VOLTAGE,
-    Decision,
-)
+from umbilical.control.contract import Decision
 from umbilical.engine.sensing import true_slope_rate
 from umbilical.engine.stepping import DELIVERED, SINCE_START, PlantState
 from umbilical.plant.cable import PRESENT, TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, VESSEL_SLOPE
@@ -169,18 +158,18 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
     note(tally, TIP, tip)
     if after_fault:
         note(tally, TIP_AFTER_FAULT, tip)
-    note(tally, COMMAND, decision.outer[THRUST_COMMAND])
+    note(tally, COMMAND, decision.outer[0].thrust_command)
     note(tally, THRUST, state.now[DELIVERED])
-    note(tally, GAP, decision.outer[THRUST_COMMAND] - state.now[DELIVERED])
+    note(tally, GAP, decision.outer[0].thrust_command - state.now[DELIVERED])
     finite = np.isfinite(tip) and np.isfinite(state.ends[TIP_VELOCITY]) and np.isfinite(state.now[DELIVERED])
     for k in range(state.motors.shape[1]):
-        note(tally, MOTOR_VOLTAGE, decision.motors[VOLTAGE, k])
+        note(tally, MOTOR_VOLTAGE, decision.motors[k].motor_voltage)
         note(tally, MOTOR_SPEED, state.motors[ROTOR_SPEED, k])
         note(tally, MOTOR_CURRENT, state.motors[CURRENT, k])
-        if abs(decision.motors[VOLTAGE, k]) >= tally.drives[LIMIT, k]:
+        if abs(decision.motors[k].motor_voltage) >= tally.drives[LIMIT, k]:
             tally.drives[AT_LIMIT, k] += 1.0
         finite = finite and np.isfinite(state.motors[ROTOR_SPEED, k]) and np.isfinite(state.motors[CURRENT, k])
-        finite = finite and np.isfinite(decision.motors[VOLTAGE, k])
+        finite = finite and np.isfinite(decision.motors[k].motor_voltage)
     tally.count[0] += 1
     return watch_slopes(state, tally.slopes) and finite
 
@@ -197,23 +186,23 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     for k in range(state.motors.shape[1]):
         out = log.motors[row, :, k]
         out[0], out[1] = state.motors[ROTOR_SPEED, k], state.motors[CURRENT, k]
-        out[2], out[3] = decision.motors[VOLTAGE, k], decision.motors[DEMAND, k]
-        out[4] = decision.motors[SPEED_REFERENCE, k]
+        decided = decision.motors[k]
+        out[2], out[3], out[4] = decided.motor_voltage, decided.demand, decided.speed_reference
         out[5] = tally.scales[k] * state.motors_now[VOLTAGE_DISTURBANCE, k]
-        out[6], out[7] = decision.motors[MOTOR_DISTURBANCE, k], state.motors_now[EFFECTIVENESS, k]
+        out[6], out[7] = decided.motor_disturbance_estimate, state.motors_now[EFFECTIVENESS, k]
 
 
 @kernel
 def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> None:
     """SCALARS, then WORKS, in their order."""
-    now, outer, ends = state.now, decision.outer, state.ends
+    now, outer, ends = state.now, decision.outer[0], state.ends
     out[0], out[1], out[2], out[3] = now[LENGTH], now[SPEED], now[ACCELERATION], now[VESSEL]
     out[4], out[5], out[6] = ends[VESSEL_SLOPE], ends[TIP_DISPLACEMENT], ends[TIP_VELOCITY]
     out[7], out[8] = ends[TIP_SLOPE], true_slope_rate(state)
-    out[9], out[10] = outer[THRUST_COMMAND], outer[BOUNDARY_ERROR]
-    out[11], out[12] = outer[VELOCITY_ESTIMATE], outer[SLOPE_RATE_ESTIMATE]
-    out[13], out[14], out[15] = outer[DISTURBANCE_ESTIMATE], now[FORCE], now[DELIVERED]
-    out[16] = now[FORCE] + now[DELIVERED] - outer[THRUST_COMMAND]
+    out[9], out[10] = outer.thrust_command, outer.boundary_error
+    out[11], out[12] = outer.tip_velocity_estimate, outer.tip_slope_rate_estimate
+    out[13], out[14], out[15] = outer.disturbance_estimate, now[FORCE], now[DELIVERED]
+    out[16] = now[FORCE] + now[DELIVERED] - outer.thrust_command
     for term in range(END_TERMS):
         out[17 + term] = state.power_ends[SINCE_START, term]
     for term in range(ALONG_TERMS):

@@ -7,18 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import LENGTH as READ_LENGTH
-from umbilical.control.contract import (
-    MOTOR_CURRENT,
-    MOTOR_SPEED,
-    PAYOUT_ACCELERATION,
-    PAYOUT_SPEED,
-    TIP_DISPLACEMENT,
-    TIP_SLOPE,
-    TIP_SLOPE_RATE,
-    TIP_VELOCITY,
-    Readings,
-)
+from umbilical.control.contract import Readings
 from umbilical.engine.stepping import PlantState
 from umbilical.plant import cable
 from umbilical.plant.exogenous import ACCELERATION, LENGTH, SPEED
@@ -103,37 +92,45 @@ def true_slope_rate(state: PlantState) -> float:
 @glue
 def read_truth(state: PlantState, readings: Readings) -> None:
     """Perfect readings."""
-    out, ends = readings.boundary, state.ends
-    out[TIP_DISPLACEMENT] = ends[cable.TIP_DISPLACEMENT]
-    out[TIP_SLOPE] = ends[cable.TIP_SLOPE]
-    out[TIP_VELOCITY] = ends[cable.TIP_VELOCITY]
-    out[TIP_SLOPE_RATE] = true_slope_rate(state)
-    out[READ_LENGTH], out[PAYOUT_SPEED] = state.now[LENGTH], state.now[SPEED]
-    out[PAYOUT_ACCELERATION] = state.now[ACCELERATION]
-    for k in range(readings.motors.shape[1]):
-        readings.motors[MOTOR_SPEED, k] = state.motors[ROTOR_SPEED, k]
-        readings.motors[MOTOR_CURRENT, k] = state.motors[CURRENT, k]
+    tip, winch, ends = readings.tip[0], readings.winch[0], state.ends
+    tip.tip_displacement = ends[cable.TIP_DISPLACEMENT]
+    tip.tip_slope = ends[cable.TIP_SLOPE]
+    tip.tip_velocity = ends[cable.TIP_VELOCITY]
+    tip.tip_slope_rate = true_slope_rate(state)
+    winch.length, winch.payout_speed = state.now[LENGTH], state.now[SPEED]
+    winch.payout_acceleration = state.now[ACCELERATION]
+    for k in range(readings.motors.size):
+        readings.motors[k].motor_speed = state.motors[ROTOR_SPEED, k]
+        readings.motors[k].motor_current = state.motors[CURRENT, k]
+
+
+@kernel
+def add_errors(s: Sensors, memory: SensorState, noise: np.ndarray, c: int, truth: float) -> float:
+    """Reading of channel c: latency, bias, noise, resolution, drop-out, in this order."""
+    depth, count = memory.samples.shape[0], memory.count[0]
+    memory.samples[count % depth, c] = truth
+    age = min(int(s.errors[LATENCY, c]), count)
+    value = memory.samples[(count - age) % depth, c] + s.errors[BIAS, c] + noise[c]
+    step = s.errors[RESOLUTION, c]
+    if step > 0.0:
+        value = np.rint(value / step) * step
+    if not np.isnan(noise[c]):
+        memory.held[c] = value
+    return memory.held[c]
 
 
 @kernel
 def spoil(s: Sensors, memory: SensorState, noise: np.ndarray, readings: Readings) -> None:
-    """Latency, bias, noise, resolution, drop-out: in this order, channel by channel."""
-    depth, motors = memory.samples.shape[0], readings.motors.shape[1]
-    count = memory.count[0]
-    for c in range(s.errors.shape[1]):
-        if c < SCALARS:
-            target, place = readings.boundary, c
-        else:
-            target, place = readings.motors[(c - SCALARS) // motors], (c - SCALARS) % motors
-        memory.samples[count % depth, c] = target[place]
-        age = min(int(s.errors[LATENCY, c]), count)
-        value = memory.samples[(count - age) % depth, c] + s.errors[BIAS, c] + noise[c]
-        step = s.errors[RESOLUTION, c]
-        if step > 0.0:
-            value = np.rint(value / step) * step
-        if not np.isnan(noise[c]):
-            memory.held[c] = value
-        target[place] = memory.held[c]
+    """Errors of every channel."""
+    tip, n = readings.tip[0], readings.motors.size
+    tip.tip_displacement = add_errors(s, memory, noise, 0, tip.tip_displacement)
+    tip.tip_slope = add_errors(s, memory, noise, 1, tip.tip_slope)
+    tip.tip_velocity = add_errors(s, memory, noise, 2, tip.tip_velocity)
+    tip.tip_slope_rate = add_errors(s, memory, noise, 3, tip.tip_slope_rate)
+    for k in range(n):
+        motor = readings.motors[k]
+        motor.motor_speed = add_errors(s, memory, noise, SCALARS + k, motor.motor_speed)
+        motor.motor_current = add_errors(s, memory, noise, SCALARS + n + k, motor.motor_current)
     memory.count[0] += 1
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import entry_kernel, glue
+from umbilical.control.contract import MotorDecision
 from umbilical.plant.cable import (
     ENDS,
     PRESENT,
@@ -222,13 +223,13 @@ def settle(plant: Plant, state: PlantState, half: float) -> None:
 
 
 @glue
-def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
-    """All motors over step i under the held voltages, shape (motors,)."""
+def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision) -> None:
+    """All motors over step i under the voltages that are held."""
     drive = state.drive
-    for k in range(voltage.size):
+    for k in range(decision.size):
         for c in range(3):
             share, stuck = inputs.motors[DRIVE_EFFECTIVENESS, k, c, i], inputs.motors[DRIVE_STUCK, k, c, i]
-            reached = applied_voltage(plant.motors, k, voltage[k], share, stuck)
+            reached = applied_voltage(plant.motors, k, decision[k].motor_voltage, share, stuck)
             drive[0, c] = reached + inputs.motors[VOLTAGE, k, c, i]
             drive[1, c] = inputs.motors[TORQUE, k, c, i]
         advance_motor(plant.motors, state.motors, k, inputs.dt[i], drive[0], drive[1])
@@ -293,7 +294,7 @@ def correct_first_step(plant: Plant, state: PlantState, dt: float) -> None:
 
 
 @glue
-def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np.ndarray) -> None:
+def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision) -> None:
     """Step i, from :func:`enter_step` on: the multistep method for cable and ROV, Runge-Kutta for the motors."""
     dt, now, history = inputs.dt[i], state.now, state.history
     if abs(dt - state.last[STEP]) > 1e-9 * dt:  # the weights are those of equal steps
@@ -304,7 +305,7 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, voltage: np
     advance_cable(plant, state, dt)
     look_outside(state, inputs, i, END)
     if not plant.ideal:
-        advance_motors(plant, state, inputs, i, voltage)
+        advance_motors(plant, state, inputs, i, decision)
         now[DELIVERED] = present_thrust(plant, state)
     push_payload(plant, state, dt)
     if history[AGE] == 0:

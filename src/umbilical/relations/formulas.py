@@ -6,9 +6,11 @@ Each function works on floats and arrays in plain Python and is inlined into the
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any, NamedTuple
+from typing import Any
 
 from numba.extending import register_jitable
+
+from umbilical.frames import Frame, real
 
 Real = Any  # a float inside kernels; a float or an array (any shape) outside
 
@@ -31,22 +33,22 @@ def soft_signed_root(demand: float, width: float) -> float:
     return demand / sqrt(sqrt(demand * demand + width * width))
 
 
-class MotorConstants(NamedTuple):
+class MotorConstants(Frame):
     """The constants f11 ... f23 of the motor written in z1 = w, z2 = (K_t/J) i, eqs. (44)-(46)."""
 
-    f11: float
-    f12: float
-    f13: float
-    f21: float
-    f22: float
-    f23: float
-    current_scale: float
+    f11 = real()
+    f12 = real()
+    f13 = real()
+    f21 = real()
+    f22 = real()
+    f23 = real()
+    current_scale = real()
 
 
 def motor_constants(motor: Any) -> MotorConstants:
     """f11 ... f23 of a :class:`~umbilical.scenario.hardware.Motor`, and K_t/J."""
     scale = motor.torque_constant / motor.inertia
-    return MotorConstants(
+    return MotorConstants.one(
         f11=-motor.viscous_friction / motor.inertia,
         f12=-motor.load_coefficient / motor.inertia,
         f13=1.0 / motor.inertia,

@@ -13,6 +13,7 @@ import numpy as np
 from umbilical.admission import load
 from umbilical.bench import reference as paper
 from umbilical.control.motor import backstepping
+from umbilical.control.motor.command_filter import Reference
 from umbilical.control.outer import boundary
 from umbilical.relations.formulas import motor_constants
 from umbilical.verify.cases import Case, Check, history_close
@@ -36,7 +37,7 @@ def inner() -> Iterator[Check]:
         both = np.repeat(r[:, None], 2, axis=1)  # the reference has two motors
         current = np.full(2, z2 * paper.J / paper.K_T)
         voltage = paper.motor_loops(0.0, np.full(2, w), current, both, -paper.G_O * np.full(2, z2))[0]
-        found.append(backstepping.backstepping_drive(constants, gains, w, z2, np.ascontiguousarray(r)))
+        found.append(backstepping.backstepping_drive(constants, gains, w, z2, Reference.one(*r)))
         wanted.append(voltage[0] * paper.F23)
     yield history_close("V_b, rad/s3, at 200 states", found, wanted, ROUND_OFF, WHY)
 

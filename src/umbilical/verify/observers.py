@@ -29,23 +29,23 @@ Array = np.ndarray
 def derivative(samples: Array, damping: float = 2.0) -> Array:
     """Estimates of a signal's derivative at every sample but the first."""
     observer = high_gain.make_high_gain(HighGainObserver(time_constant=EPS, damping=damping), PERIOD)
-    state, out = np.zeros(2), []
-    high_gain.start_high_gain(state, samples[0])
+    memory, out = high_gain.HighGainMemory.one(), []
+    high_gain.start_high_gain(memory, samples[0])
     for sample in samples[1:]:
-        high_gain.advance_high_gain(observer, state, sample)
-        out.append(high_gain.derivative_estimate(observer, state))
+        high_gain.advance_high_gain(observer, memory, sample)
+        out.append(high_gain.derivative_estimate(observer, memory))
     return np.array(out)
 
 
 def payload_disturbance(mass: float, error: float, force: float, velocity: Array, coupling: float = 2.0) -> Array:
     """Estimates of D at the samples of Dy/Dt, while u_a and the known force are constant."""
     observer = of_payload.make_disturbance(DisturbanceObserver(gain=GAIN, coupling=coupling), PERIOD)
-    state = np.zeros(1)
-    of_payload.start_disturbance(observer, state, mass, velocity[0])
-    out = [of_payload.disturbance_estimate(observer, state, mass, velocity[0])]
+    memory = of_payload.DisturbanceMemory.one()
+    of_payload.start_disturbance(observer, memory, mass, velocity[0])
+    out = [of_payload.disturbance_estimate(observer, memory, mass, velocity[0])]
     for w in velocity[1:]:
-        of_payload.advance_disturbance(observer, state, mass, w, error, force)
-        out.append(of_payload.disturbance_estimate(observer, state, mass, w))
+        of_payload.advance_disturbance(observer, memory, mass, w, error, force)
+        out.append(of_payload.disturbance_estimate(observer, memory, mass, w))
     return np.array(out)
 
 

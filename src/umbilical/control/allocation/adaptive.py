@@ -16,30 +16,41 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.control.contract import MotorDecision
+from umbilical.control.nominal import NominalMotor
+from umbilical.frames import Frame, real
 from umbilical.scenario.control import AdaptiveAllocation, Allocation
 
-# Rows of Adaptation.form.
-DECAY, GAIN, LOWER, UPPER = range(4)
+
+class KappaStep(Frame):
+    """Exact step of one kappa: ``kappa <- decay kappa - gain theta u_a``, then projected onto its bounds."""
+
+    kappa_decay = real()
+    kappa_gain = real()
+    kappa_lower = real()
+    kappa_upper = real()
 
 
 class Adaptation(NamedTuple):
-    """Exact step ``kappa <- decay kappa - gain theta u_a``, then projected onto the box; ``form`` is (4, n + 1)."""
+    """The adaptive law; one record for each of kappa_0 ... kappa_n."""
 
     enabled: bool
-    form: np.ndarray
+    steps: KappaStep
 
 
 def make_adaptation(record: Allocation, motors: int, period: float) -> Adaptation:
     """Discrete form for one period; known factors get an idle one."""
+    steps = KappaStep.many(motors + 1)
     if not isinstance(record, AdaptiveAllocation):
-        return Adaptation(False, np.zeros((4, motors + 1)))
+        return Adaptation(False, steps)
     rates = np.array(record.rates)
     leaking = rates * record.leak * period
     # (1 - exp(-leaking)) / leak, which tends to rates * period without a leak.
-    gain = -np.expm1(-leaking) / record.leak if record.leak > 0.0 else rates * period
-    lower = record.lower or (-np.inf,) * (motors + 1)
-    upper = record.upper or (np.inf,) * (motors + 1)
-    return Adaptation(True, np.array([np.exp(-leaking), gain, lower, upper]))
+    steps["kappa_gain"] = -np.expm1(-leaking) / record.leak if record.leak > 0.0 else rates * period
+    steps["kappa_decay"] = np.exp(-leaking)
+    steps["kappa_lower"] = record.lower or -np.inf
+    steps["kappa_upper"] = record.upper or np.inf
+    return Adaptation(True, steps)
 
 
 def initial_kappa(record: Allocation, motors: int) -> np.ndarray:
@@ -50,18 +61,17 @@ def initial_kappa(record: Allocation, motors: int) -> np.ndarray:
 @kernel
 def adapt(adaptation: Adaptation, kappa: np.ndarray, thrust: float, error: float) -> None:
     """One period of (27)."""
-    f = adaptation.form
     for j in range(kappa.size):
-        theta = thrust if j == 0 else 1.0
-        wanted = f[DECAY, j] * kappa[j] - f[GAIN, j] * theta * error
-        kappa[j] = min(max(wanted, f[LOWER, j]), f[UPPER, j])
+        step, theta = adaptation.steps[j], thrust if j == 0 else 1.0
+        wanted = step.kappa_decay * kappa[j] - step.kappa_gain * theta * error
+        kappa[j] = min(max(wanted, step.kappa_lower), step.kappa_upper)
 
 
 @kernel
-def adaptive_demand(coefficients: np.ndarray, kappa: np.ndarray, thrust: float, demand: np.ndarray) -> None:
-    """Demands (23) into ``demand``, rad2/s2; only the signs of the coefficients are used."""
+def adaptive_demand(nominal: NominalMotor, kappa: np.ndarray, thrust: float, decision: MotorDecision) -> None:
+    """Decide the demands (23); only the signs of the thrust coefficients are used."""
     common = kappa[0] * thrust
     for j in range(1, kappa.size):
         common += kappa[j]
-    for i in range(coefficients.size):
-        demand[i] = np.sign(coefficients[i]) * common
+    for i in range(nominal.size):
+        decision[i].demand = np.sign(nominal[i].thrust_coefficient) * common

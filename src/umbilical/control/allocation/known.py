@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.control.contract import MotorDecision
+from umbilical.control.nominal import NominalMotor
 
 
 @kernel
-def known_demand(coefficients: np.ndarray, thrust: float, demand: np.ndarray) -> None:
-    """Demands into ``demand``, rad2/s2, shape (n,); ``coefficients`` are the believed K_T."""
+def known_demand(nominal: NominalMotor, thrust: float, decision: MotorDecision) -> None:
+    """Decide the demands on the motors from their believed thrust coefficients."""
     total = 0.0
-    for i in range(coefficients.size):
-        total += abs(coefficients[i])
-    for i in range(coefficients.size):
-        demand[i] = np.sign(coefficients[i]) * thrust / total
+    for i in range(nominal.size):
+        total += abs(nominal[i].thrust_coefficient)
+    for i in range(nominal.size):
+        decision[i].demand = np.sign(nominal[i].thrust_coefficient) * thrust / total

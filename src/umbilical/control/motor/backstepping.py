@@ -16,9 +16,8 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple
 
-import numpy as np
-
 from umbilical.compile import kernel
+from umbilical.control.motor.command_filter import Reference
 from umbilical.relations.formulas import MotorConstants, signed_square
 
 
@@ -42,19 +41,20 @@ def smooth_sign(error: float, width: float) -> float:
 
 @kernel
 def backstepping_drive(
-    c: MotorConstants, gains: Backstepping, speed: float, scaled_current: float, reference: np.ndarray
+    c: MotorConstants, gains: Backstepping, speed: float, scaled_current: float, reference: Reference
 ) -> float:
-    """V_b of (60), rad/s3; ``reference`` is (w_d, w_d', w_d'')."""
-    e1 = speed - reference[0]
+    """V_b of (60), rad/s3."""
+    e1 = speed - reference.speed_reference
     square = signed_square(speed)
     rate = scaled_current + c.f11 * speed + c.f12 * square
-    e1_rate = rate - reference[1]
+    e1_rate = rate - reference.speed_reference_rate
     robust1 = gains.speed_bound * gains.robust_factor
     soft = e1 * e1 + gains.speed_width * gains.speed_width
 
-    wanted = -gains.speed_gain * e1 - c.f11 * speed - c.f12 * square + reference[1]
+    wanted = -gains.speed_gain * e1 - c.f11 * speed - c.f12 * square + reference.speed_reference_rate
     wanted -= robust1 * smooth_sign(e1, gains.speed_width)
-    wanted_rate = -gains.speed_gain * e1_rate - c.f11 * rate - 2.0 * c.f12 * abs(speed) * rate + reference[2]
+    wanted_rate = -gains.speed_gain * e1_rate - c.f11 * rate - 2.0 * c.f12 * abs(speed) * rate
+    wanted_rate += reference.speed_reference_curvature
     wanted_rate -= robust1 * gains.speed_width * gains.speed_width * e1_rate / (soft * sqrt(soft))
 
     e2 = scaled_current - wanted

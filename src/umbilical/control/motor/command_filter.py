@@ -13,11 +13,20 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.control.linear import held_input_form
+from umbilical.frames import Frame, real
 from umbilical.relations.formulas import soft_signed_root
 
 
+class Reference(Frame):
+    """The filtered speed reference of a motor, with its derivatives: w_d, w_d', w_d''."""
+
+    speed_reference = real()
+    speed_reference_rate = real()
+    speed_reference_curvature = real()
+
+
 class CommandFilter(NamedTuple):
-    """Exact step ``state <- form [state, root]``, shape (3, 4); ``width`` softens the root, rad2/s2."""
+    """Exact step ``reference <- form [reference, root]``, shape (3, 4); ``width`` softens the root, rad2/s2."""
 
     form: np.ndarray
     width: float
@@ -31,10 +40,11 @@ def make_command_filter(frequency: float, width: float, period: float) -> Comman
 
 
 @kernel
-def advance_filter(command_filter: CommandFilter, state: np.ndarray, demand: float) -> None:
-    """One period; ``state`` is (w_d, w_d', w_d''), shape (3,)."""
+def advance_filter(command_filter: CommandFilter, reference: Reference, demand: float) -> None:
+    """Advance one period."""
     f = command_filter.form
     root = soft_signed_root(demand, command_filter.width)
-    w0, w1, w2 = state[0], state[1], state[2]
-    for row in range(3):
-        state[row] = f[row, 0] * w0 + f[row, 1] * w1 + f[row, 2] * w2 + f[row, 3] * root
+    w0, w1, w2 = reference.speed_reference, reference.speed_reference_rate, reference.speed_reference_curvature
+    reference.speed_reference = f[0, 0] * w0 + f[0, 1] * w1 + f[0, 2] * w2 + f[0, 3] * root
+    reference.speed_reference_rate = f[1, 0] * w0 + f[1, 1] * w1 + f[1, 2] * w2 + f[1, 3] * root
+    reference.speed_reference_curvature = f[2, 0] * w0 + f[2, 1] * w1 + f[2, 2] * w2 + f[2, 3] * root

@@ -13,10 +13,15 @@ from __future__ import annotations
 from math import exp
 from typing import NamedTuple
 
-import numpy as np
-
 from umbilical.compile import kernel
+from umbilical.frames import Frame, real
 from umbilical.scenario.control import DisturbanceObserver
+
+
+class DisturbanceMemory(Frame):
+    """What the observer remembers."""
+
+    disturbance_state = real()
 
 
 class Disturbance(NamedTuple):
@@ -36,21 +41,21 @@ def make_disturbance(record: DisturbanceObserver | None, period: float) -> Distu
 
 
 @kernel
-def start_disturbance(observer: Disturbance, state: np.ndarray, mass: float, velocity: float) -> None:
+def start_disturbance(observer: Disturbance, memory: DisturbanceMemory, mass: float, velocity: float) -> None:
     """phi such that the estimate starts at 0."""
-    state[0] = -observer.gain * mass * velocity
+    memory.disturbance_state = -observer.gain * mass * velocity
 
 
 @kernel
 def advance_disturbance(
-    observer: Disturbance, state: np.ndarray, mass: float, velocity: float, error: float, known_force: float
+    observer: Disturbance, memory: DisturbanceMemory, mass: float, velocity: float, error: float, known_force: float
 ) -> None:
     """One period. ``known_force`` is T z1 + c_tip x2^ - alpha_c, with the command that was held over it, N."""
     drive = observer.coupling * error + known_force - observer.gain * mass * velocity
-    state[0] = observer.decay * state[0] + (1.0 - observer.decay) * drive
+    memory.disturbance_state = observer.decay * memory.disturbance_state + (1.0 - observer.decay) * drive
 
 
 @kernel
-def disturbance_estimate(observer: Disturbance, state: np.ndarray, mass: float, velocity: float) -> float:
+def disturbance_estimate(observer: Disturbance, memory: DisturbanceMemory, mass: float, velocity: float) -> float:
     """D^, N."""
-    return state[0] + observer.gain * mass * velocity if observer.enabled else 0.0
+    return memory.disturbance_state + observer.gain * mass * velocity if observer.enabled else 0.0

@@ -16,7 +16,15 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.control.linear import held_input_form
+from umbilical.frames import Frame, real
 from umbilical.scenario.control import HighGainObserver
+
+
+class HighGainMemory(Frame):
+    """What the observer remembers."""
+
+    filtered_signal = real()
+    filtered_rate = real()
 
 
 class HighGain(NamedTuple):
@@ -35,23 +43,21 @@ def make_high_gain(record: HighGainObserver | None, period: float) -> HighGain:
 
 
 @kernel
-def start_high_gain(state: np.ndarray, signal: float) -> None:
+def start_high_gain(memory: HighGainMemory, signal: float) -> None:
     """Rest on the first sample."""
-    state[0] = signal
-    state[1] = 0.0
+    memory.filtered_signal = signal
+    memory.filtered_rate = 0.0
 
 
 @kernel
-def advance_high_gain(observer: HighGain, state: np.ndarray, signal: float) -> None:
-    """One period with the sample held over it; ``state`` is (pi1, pi2)."""
-    f = observer.form
-    first = f[0, 0] * state[0] + f[0, 1] * state[1] + f[0, 2] * signal
-    second = f[1, 0] * state[0] + f[1, 1] * state[1] + f[1, 2] * signal
-    state[0] = first
-    state[1] = second
+def advance_high_gain(observer: HighGain, memory: HighGainMemory, signal: float) -> None:
+    """One period with the sample held over it."""
+    f, pi1, pi2 = observer.form, memory.filtered_signal, memory.filtered_rate
+    memory.filtered_signal = f[0, 0] * pi1 + f[0, 1] * pi2 + f[0, 2] * signal
+    memory.filtered_rate = f[1, 0] * pi1 + f[1, 1] * pi2 + f[1, 2] * signal
 
 
 @kernel
-def derivative_estimate(observer: HighGain, state: np.ndarray) -> float:
+def derivative_estimate(observer: HighGain, memory: HighGainMemory) -> float:
     """pi2/eps."""
-    return state[1] / observer.time_constant
+    return memory.filtered_rate / observer.time_constant
