@@ -21,7 +21,8 @@ from umbilical.relations.formulas import tension
 from umbilical.scenario.environment import Environment
 from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov
 
-TABLE = {"kind": "table", "times": [0.0, 5.0, 12.0, 20.0, 30.0], "values": [0.0, 3.0, -2.0, 4.0, 0.0]}
+TABLE = {"kind": "table", "times": [0.0, 3.0, 7.0, 10.0, 14.0, 17.0, 21.0, 25.0, 30.0],
+         "values": [0.0, 2.5, 2.1, -1.0, -3.0, -1.2, 2.9, 4.0, 3.9]}  # fmt: skip
 TERMS: dict[str, dict[str, Any]] = {
     "constant": constant(-2.0),
     "sine": sine(3.0, 0.7, 0.2),

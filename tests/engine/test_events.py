@@ -134,3 +134,30 @@ def test_a_jump_of_the_winch_acceleration_is_booked(lengths: tuple[float, float]
     jump = energy[21] - energy[20]
     assert jump / energy[20] == pytest.approx(-0.2 * np.sign(lengths[1] - lengths[0]), abs=0.01)
     assert np.abs(result["energy_residual"].values).max() < 1e-3 * abs(jump)
+
+
+@pytest.mark.nojit
+def test_the_sample_on_which_a_fault_falls_counts_as_after_it() -> None:
+    """The ROV swings back from its greatest displacement, so the first sample after the fault is the largest."""
+    shape = {"initial": {"shape": "static", "force": 200.0}, "environment__payload_force": []}
+    for start, first in ((0.05, 50), (0.0500001, 51), (0.1 + 0.2 - 0.25, 50)):
+        result = run(
+            small("paper", faults=[{"kind": "dead", "motor": 1, "start": start}], output__interval=STEP, **shape)
+        )
+        tip = np.abs(result["tip_displacement"].values)
+        assert (np.diff(tip) < 0.0).all()
+        assert result.metrics["tip_peak_after_fault"] == tip[first]
+
+
+@pytest.mark.nojit
+@pytest.mark.parametrize("gap", [0.0, 5e-17, -5e-17])
+def test_faults_that_meet_but_for_round_off_meet(gap: float) -> None:
+    """0.1 + 0.2 is above 0.3: an end and a start that differ so are one instant, at which both sides are clean."""
+    meet = 0.05
+    first = {"kind": "stuck", "motor": 2, "start": 0.02, "end": meet + 4.0 * gap, "value": 100.0}
+    second = {"kind": "stuck", "motor": 2, "start": meet, "value": 100.0}
+    quiet = {f"motors__{k}__{name}_disturbance": [] for k in (1, 2) for name in ("torque", "voltage")}
+    law = {"control__law": {"kind": "none"}, "environment__payload_force": [], "output__interval": STEP}
+    result = run(small("paper", faults=[first, second], **quiet, **law))
+    assert (result["thrust"].values[20:] == 80.0).all()
+    assert result["tip_velocity"].values[70] == pytest.approx(stuck(0.02)["tip_velocity"].values[70], rel=1e-9)

@@ -7,8 +7,8 @@ from itertools import combinations
 from math import inf
 
 from umbilical.admission.findings import Finding, amount
-from umbilical.admission.timeline import is_multiple
 from umbilical.errors import Problem
+from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario.control import Control, NoControl
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Stuck
 from umbilical.scenario.hardware import Motor
@@ -68,10 +68,11 @@ def faults_end_after_they_start(faults: Sequence[Fault]) -> Iterator[Finding]:
     """Recovery follows failure."""
     for number, fault in enumerate(faults, start=1):
         if fault.end is not None and fault.end <= fault.start:
+            end, start = apart(fault.end, fault.start)
             yield Problem(
                 f"faults.{number}.end",
-                amount(fault.end, "s"),
-                f"above start = {fault.start:g} s",
+                f"{end} s",
+                f"above start = {start} s",
                 "recovery follows failure",
                 "a later end, or none for a fault that stays",
             )
@@ -95,10 +96,12 @@ def stuck_once_at_a_time(faults: Sequence[Fault]) -> Iterator[Finding]:
     holding = [(number, fault) for number, fault in enumerate(faults, start=1) if isinstance(fault, Dead | Stuck)]
     for (first, a), (second, b) in combinations(holding, 2):
         same = (a.motor, a.target) == (b.motor, b.target)
-        if same and max(a.start, b.start) < min(a.end or inf, b.end or inf):
+        begin, end = max(a.start, b.start), min(a.end or inf, b.end or inf)
+        if same and end - begin > slack(begin):
+            start, _ = apart(b.start, end)
             yield Problem(
                 f"faults.{second}",
-                f'"{b.kind}" from {b.start:g} s',
+                f'"{b.kind}" from {start} s',
                 f"not while faults.{first} holds the {a.target} of motor {a.motor}",
                 "a motor is dead or stuck at one value at a time",
                 "end one before the other starts",
@@ -112,7 +115,7 @@ def latencies(sensors: Sensors, control: Control) -> Iterator[Finding]:
         if isinstance(channel, Channel) and channel.latency and not is_multiple(channel.latency, control.period):
             yield Problem(
                 f"sensors.{name}.latency",
-                amount(channel.latency, "s"),
+                f"{apart(channel.latency, nearest_count(channel.latency, control.period) * control.period)[0]} s",
                 f"0 or a multiple of control.period = {control.period:g} s",
                 "sensors are read once per period; an older reading is one of an earlier period",
                 "round it to whole periods",

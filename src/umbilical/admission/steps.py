@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import ceil, sqrt
+from math import sqrt
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from umbilical.admission.motion import sampled_winch
 from umbilical.admission.timeline import MOST_STEPS
 from umbilical.errors import Problem
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
+from umbilical.relations.instants import count_up
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Motor, Payload
@@ -45,8 +46,7 @@ def chosen_step(scenario: Scenario) -> float:
 
 
 def _whole_part(period: float, largest: float) -> float:
-    parts = min(period / largest, 1e15)  # a step of 1e-320 s has its own problem: the size of the run
-    return period / ceil(parts * (1.0 - 1e-9))
+    return period / max(count_up(period, largest), 1)
 
 
 def wave_step(

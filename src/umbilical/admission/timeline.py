@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 
 from umbilical.admission.findings import Finding, Notice, amount
+from umbilical.admission.tables import TableOf, smoothness, table_problems
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario import Scenario
 from umbilical.scenario.control import Control
 from umbilical.scenario.document import look_up, to_dict
@@ -22,12 +23,9 @@ from umbilical.scenario.winch import TabulatedLength, Winch
 
 MOST_STEPS = 1e8
 _MOST_STORED = 1e8
-
-
-def is_multiple(value: float, of: float) -> bool:
-    """Whether ``value`` is a whole number of ``of``, at least one, to nine digits."""
-    count = round(min(value / of, 1e15))
-    return count >= 1 and abs(value - count * of) <= 1e-9 * value
+_SHAPE = TableOf("initial", "positions", "displacements", (0.0, 1.0), exact=True)
+_UNITS = {"payload_force": "N", "vessel_motion": "m", "signal": "N/m", "torque_disturbance": "N m",
+          "voltage_disturbance": "V"}  # fmt: skip
 
 
 def grid_of_time(duration: float, control: Control, output: Output) -> Iterator[Finding]:
@@ -39,10 +37,10 @@ def grid_of_time(duration: float, control: Control, output: Output) -> Iterator[
     }
     for key, value in times.items():
         if not is_multiple(value, control.period):
-            near = max(round(min(value / control.period, 1e15)), 1) * control.period
+            near = max(nearest_count(value, control.period), 1) * control.period
             yield Problem(
                 key,
-                amount(value, "s"),
+                f"{apart(value, near)[0]} s",
                 f"a multiple of control.period = {control.period:g} s",
                 "the controller is called once per period, and everything else keeps step with it",
                 f"for example {near:.9g} s",
@@ -88,7 +86,31 @@ def signals_of_the_motors(motors: Sequence[Motor], duration: float) -> Iterator[
 def tables_of_the_winch(winch: Winch, duration: float) -> Iterator[Finding]:
     """A tabulated length is sorted and covers the run."""
     if isinstance(winch, TabulatedLength):
-        yield from _table("winch", "times", "lengths", winch.times, len(winch.lengths), (0.0, duration))
+        yield from table_problems(_of_lengths(duration), winch.times, len(winch.lengths))
+
+
+def smooth_environment(environment: Environment, duration: float) -> Iterator[Finding]:
+    """Smooth tables of the loads and of the vessel's motion stay near their data."""
+    for key, signal in _of_environment(environment):
+        yield from _smooth(key, signal, duration)
+
+
+def smooth_motors(motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
+    """Smooth tables of the motors' disturbances stay near their data."""
+    for key, signal in _of_motors(motors):
+        yield from _smooth(key, signal, duration)
+
+
+def smooth_winch(winch: Winch, duration: float) -> Iterator[Finding]:
+    """The length between the instants of its table stays near the data."""
+    if isinstance(winch, TabulatedLength):
+        yield from smoothness(_of_lengths(duration), winch.times, winch.lengths, "m")
+
+
+def smooth_shape(initial: InitialShape) -> Iterator[Finding]:
+    """The shape between the positions of its table stays near the data."""
+    if isinstance(initial, TableShape):
+        yield from smoothness(_SHAPE, initial.positions, initial.displacements, "m")
 
 
 def shapes(environment: Environment, initial: InitialShape) -> Iterator[Finding]:
@@ -96,28 +118,27 @@ def shapes(environment: Environment, initial: InitialShape) -> Iterator[Finding]
     for number, load in enumerate(environment.cable_load, start=1):
         if isinstance(profile := load.profile, TableProfile):
             key = f"environment.cable_load.{number}.profile"
-            yield from _table(
-                key, "positions", "values", profile.positions, len(profile.values), (0.0, 1.0), exact=True
-            )
+            table = TableOf(key, "positions", "values", (0.0, 1.0), exact=True)
+            yield from table_problems(table, profile.positions, len(profile.values))
     if isinstance(initial, TableShape):
-        count = len(initial.displacements)
-        yield from _table("initial", "positions", "displacements", initial.positions, count, (0.0, 1.0), exact=True)
+        yield from table_problems(_SHAPE, initial.positions, len(initial.displacements))
 
 
 def jumps_after_the_end(
     environment: Environment, motors: Sequence[Motor], faults: Sequence[Fault], winch: Winch, duration: float
 ) -> Iterator[Finding]:
     """What comes after the end of the run never happens: allowed, but worth a word."""
-    late = {f"faults.{number}.start": fault.start for number, fault in enumerate(faults, start=1)}
+    starts = {f"faults.{number}.start": fault.start for number, fault in enumerate(faults, start=1)}
     for key, signal in (*_of_environment(environment), *_of_motors(motors)):
         for number, term in enumerate(signal, start=1):
             if not isinstance(term, Table) and (instants := signals.jumps((term,))):
-                late[f"{key}.{number}.{'start' if isinstance(term, Pulse) else 'time'}"] = instants[0]
+                starts[f"{key}.{number}.{'start' if isinstance(term, Pulse) else 'time'}"] = instants[0]
     if not isinstance(winch, TabulatedLength):
-        late["winch"] = next(iter(laws.jumps(winch)), 0.0)
-    for key, instant in late.items():
-        if instant > duration:
-            yield Notice(key, f"at {instant:g} s, after the end of the run at {duration:g} s: it never happens")
+        starts["winch"] = next(iter(laws.jumps(winch)), 0.0)
+    for key, instant in starts.items():
+        if instant > duration + slack(duration):
+            late, end = apart(instant, duration)
+            yield Notice(key, f"at {late} s, after the end of the run at {end} s: it never happens")
 
 
 def marks(scenario: Scenario) -> Iterator[Finding]:
@@ -157,52 +178,28 @@ def _signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
     for number, term in enumerate(signal, start=1):
         place = f"{key}.{number}"
         if isinstance(term, Table):
-            yield from _table(place, "times", "values", term.times, len(term.values), (0.0, duration))
+            yield from table_problems(_of_times(place, duration), term.times, len(term.values))
         if isinstance(term, Pulse) and term.end <= term.start:
+            end, start = apart(term.end, term.start)
             yield Problem(
                 f"{place}.end",
-                amount(term.end, "s"),
-                f"above start = {term.start:g} s",
+                f"{end} s",
+                f"above start = {start} s",
                 "a pulse ends after it starts",
                 "a later end",
             )
 
 
-def _table(
-    key: str,
-    across: str,
-    values: str,
-    points: Sequence[float],
-    count: int,
-    span: tuple[float, float],
-    exact: bool = False,
-) -> Iterator[Finding]:
-    """Problems of a table over ``points``: order, length, and whether it covers (or exactly spans) the span."""
-    first, last = span
-    if count != len(points):
-        yield Problem(
-            f"{key}.{values}",
-            f"{count} entries",
-            f"{len(points)} entries, one for each of {key}.{across}",
-            "each point has one value",
-            "make both lists equally long",
-        )
-    for number, (a, b) in enumerate(pairwise(points), start=1):
-        if b <= a:
-            yield Problem(
-                f"{key}.{across}.{number + 1}",
-                f"{b:g}",
-                f"above the one before it, {a:g}",
-                "the curve runs through increasing points",
-                "sort the table; no point twice",
-            )
-            return
-    covered = points[0] == first and points[-1] == last if exact else points[0] <= first and points[-1] >= last
-    if not covered:
-        yield Problem(
-            f"{key}.{across}",
-            f"{points[0]:g} to {points[-1]:g}",
-            f"{'exactly' if exact else 'at least'} {first:g} to {last:g}",
-            "nothing is known outside the table",
-            "extend the table",
-        )
+def _smooth(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
+    for number, term in enumerate(signal, start=1):
+        if isinstance(term, Table) and term.interpolation == "smooth":
+            table = _of_times(f"{key}.{number}", duration)
+            yield from smoothness(table, term.times, term.values, _UNITS[key.split(".")[-1]])
+
+
+def _of_times(key: str, duration: float) -> TableOf:
+    return TableOf(key, "times", "values", (0.0, duration))
+
+
+def _of_lengths(duration: float) -> TableOf:
+    return TableOf("winch", "times", "lengths", (0.0, duration))

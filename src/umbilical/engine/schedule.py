@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.plant.exogenous import Steps
+from umbilical.relations.instants import count_up, nearest_count
 
 SNAP = 1e-9
 """A jump this close to a step's end, as a share of the step, is taken to be at it."""
@@ -37,8 +38,8 @@ def make_clock(duration: float, period: float, largest_step: float, jumps: tuple
     >>> make_clock(1.0, 0.1, 0.04, ()).substeps
     3
     """
-    substeps = max(1, int(np.ceil(period / largest_step * (1.0 - 1e-12))))
-    return Clock(period, round(duration / period), substeps, np.array(jumps))
+    substeps = max(1, count_up(period, largest_step))
+    return Clock(period, nearest_count(duration, period), substeps, np.array(jumps))
 
 
 def stretch(clock: Clock, begin: int, end: int) -> Stretch:

@@ -45,6 +45,7 @@ from umbilical.plant.cable import TIP_DISPLACEMENT
 from umbilical.plant.exogenous import Outside, published_jumps
 from umbilical.plant.layout import positions
 from umbilical.relations.formulas import motor_constants
+from umbilical.relations.instants import apart, count_up, is_multiple, nearest_count
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
 
@@ -193,27 +194,26 @@ def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: 
 def _periods(scenario: Scenario, controller: Controller) -> tuple[float, int]:
     """Period of the loop, and how many of them pass between two calls of a user's controller."""
     own, loops = float(controller.period), scenario.control.period
-    every = round(own / loops) if np.isfinite(own) else 0
-    if every < 1 or abs(own / loops - every) > 1e-9 * every:
+    if not np.isfinite(own) or not is_multiple(own, loops):
         raise ScenarioError(
             [
                 Problem(
                     f"{type(controller).__name__}.period",
-                    f"{own:g} s",
+                    f"{apart(own, loops)[0]} s",
                     f"a multiple of control.period = {loops:g} s",
                     "the motor loops and the sensors run at control.period",
                     "set control.period to the controller's period or to a fraction of it",
                 )
             ]
         )
-    return loops, every
+    return loops, nearest_count(own, loops)
 
 
 def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
     every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
     samples = clock.periods // every + 1 + (clock.periods % every > 0)
     first = faults.first_fault(scenario.faults)
-    fault_update = clock.periods + 1 if first is None else int(np.ceil(first / clock.period - 1e-9))
+    fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
     scales = np.array([motor_constants(m).f23 for m in scenario.motors])
     limits = np.array([np.inf if m.voltage_limit is None else m.voltage_limit for m in scenario.motors])
     elements = scenario.grid.elements

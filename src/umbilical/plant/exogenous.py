@@ -16,6 +16,7 @@ import numpy as np
 
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
+from umbilical.relations.instants import slack
 from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import Winch
@@ -74,7 +75,11 @@ def published_jumps(scenario: Scenario) -> tuple[float, ...]:
     instants = {t for signal in named for t in signals.jumps(signal)}
     instants |= {environment.vessel_ramp} | set(winch.jumps(scenario.winch))
     instants |= set(faults.jumps(scenario.faults, scenario.duration))
-    return tuple(sorted(t for t in instants if 0.0 <= t <= scenario.duration))
+    found: list[float] = []
+    for t in sorted(t for t in instants if 0.0 <= t <= scenario.duration):
+        if not found or t - found[-1] > slack(t):  # what differs by round-off is one instant
+            found.append(t)
+    return tuple(found)
 
 
 def profile(shape: Profile, sigma: Array) -> Array:

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from umbilical.plant.signals import Array, Side, reached
+from umbilical.plant.signals import Array, Side, passed, reached
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Partial, Ramp, Stuck
 
 Target = Literal["thrust", "voltage"]
@@ -76,7 +76,7 @@ def _present(fault: Fault, t: Array, side: Side) -> NDArray[np.bool_]:
     if fault.end is not None:
         present &= ~reached(t, fault.end, side)
     if isinstance(fault, Intermittent):
-        present &= np.searchsorted(_switches(fault, float(np.max(t, initial=0.0))), t, side=side) % 2 == 1
+        present &= passed(_switches(fault, float(np.max(t, initial=0.0))), t, side) % 2 == 1
     return present
 
 

@@ -1,7 +1,7 @@
 """Values of the scenario's signals over arrays of time: loads, disturbances and the vessel's motion.
 
-A jump is taken exactly at its published instant; ``side`` says which limit is wanted there. A caller that
-steps up to an instant must therefore hand over that very number, not a sum of steps that comes close to it.
+A jump is taken at its published instant; ``side`` says which limit is wanted there. Instants that differ by round-off
+are the same (:mod:`umbilical.relations.instants`).
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from umbilical.relations.instants import slack
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term
 
@@ -109,8 +110,16 @@ def vessel(environment: Environment, t: ArrayLike, side: Side = "right") -> tupl
 
 
 def reached(t: Array, instant: float, side: Side) -> NDArray[np.bool_]:
-    """Whether what happens at ``instant`` has happened at ``t``; exactly there, ``side`` decides."""
-    return t >= instant if side == "right" else t > instant
+    """Whether what happens at ``instant`` has happened at ``t``; there, but for round-off, ``side`` decides."""
+    same = slack(instant)
+    return t >= instant - same if side == "right" else t > instant + same
+
+
+def passed(instants: ArrayLike, t: Array, side: Side) -> NDArray[np.intp]:
+    """How many of the increasing ``instants`` are reached at each ``t``, as :func:`reached` says."""
+    marks = np.asarray(instants, dtype=np.float64)
+    same = slack(marks)
+    return np.searchsorted(marks - same if side == "right" else marks + same, t, side=side)
 
 
 def spline(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
@@ -192,7 +201,7 @@ def _(term: Table, t: Array, side: Side) -> _Part:
     if term.interpolation == "smooth":
         return spline(term.times, term.values)(t, 1)
     slopes = np.concatenate([[0.0], np.diff(term.values) / np.diff(term.times), [0.0]])
-    return slopes[np.searchsorted(term.times, t, side=side)]
+    return slopes[passed(term.times, t, side)]
 
 
 @singledispatch

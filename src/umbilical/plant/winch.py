@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from umbilical.plant.signals import Array, Side, spline
+from umbilical.plant.signals import Array, Side, passed, spline
 from umbilical.scenario.winch import ConstantLength, ConstantSpeed, Cosine, Quintic, TabulatedLength, Trapezoid, Winch
 
 
@@ -82,7 +82,7 @@ def _(winch: Quintic, t: Array, side: Side) -> WinchMotion:
     q = np.clip((t - winch.start) / time, 0.0, 1.0)
     square = q * q
     # The jerk is the one derivative that does not vanish at both ends, so it needs to know when the winch runs.
-    runs = np.searchsorted(jumps(winch), t, side=side) == 1
+    runs = passed(jumps(winch), t, side) == 1
     return WinchMotion(
         winch.start_length + way * q * square * (10.0 - 15.0 * q + 6.0 * square),
         way / time * 30.0 * square * (1.0 - q) ** 2,
@@ -104,7 +104,7 @@ def _(winch: Trapezoid, t: Array, side: Side) -> WinchMotion:
     lengths[-1] = winch.end_length
     speeds = np.array([0.0, 0.0, top, top, 0.0])
     accelerations = np.array([0.0, acceleration, 0.0, -acceleration, 0.0])
-    piece = np.searchsorted(corners, t, side=side)
+    piece = passed(corners, t, side)
     v, a, dt = speeds[piece], accelerations[piece], t - since[piece]
     return WinchMotion(lengths[piece] + (v + a * dt / 2.0) * dt, v + a * dt, a, np.zeros(t.shape))
 
@@ -122,7 +122,7 @@ def _(winch: TabulatedLength, t: Array, side: Side) -> WinchMotion:
     curve = spline(winch.times, winch.lengths)
     last = len(winch.times) - 2
     thirds = 6.0 * curve.c[0]  # the third derivative is constant between knots
-    piece = np.clip(np.searchsorted(winch.times, t, side=side) - 1, 0, last)
+    piece = np.clip(passed(winch.times, t, side) - 1, 0, last)
     return WinchMotion(curve(t), curve(t, 1), curve(t, 2), thirds[piece])
 
 

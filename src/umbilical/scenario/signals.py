@@ -55,7 +55,10 @@ class Pulse(Record):
 
 
 class Table(Record):
-    """Values at times, with a smooth (cubic, twice differentiable) or linear curve between them."""
+    """Values at times, with a smooth (cubic, twice differentiable) or linear curve between them.
+
+    A smooth curve may leave its data by 5 % of their range at most; it is told from 1 % on.
+    """
 
     kind: Literal["table"]
     times: tuple[Number, ...] = Field(min_length=2, description="increasing instants, s; they must cover the run")
