@@ -7,17 +7,19 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Iterator
+from numbers import Integral
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from umbilical.errors import FileError
+from umbilical.machine import in_words, memory
 
 if TYPE_CHECKING:
     import xarray
 
 
-RESULT_SCHEMA = 1
+RESULT_SCHEMA = 2
 """Version of the layout of a result file; raised when a reader of the old layout would misread the new one."""
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -43,19 +45,28 @@ def from_netcdf(content: bytes, origin: str) -> xarray.Dataset:
 
     if not content.startswith(_SIGNATURE):
         raise FileError(f"{origin}: this is not a NetCDF4 file" + (" (it is empty)" if not content else ""))
-    try:
-        data = xarray.load_dataset(io.BytesIO(content), engine="h5netcdf")
+    try:  # numbers as they are stored: no unit makes a date of them
+        with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf", decode_times=False) as data:
+            _check_schema(data, origin)
+            _check_size(data, origin)
+            return data.load()
+    except FileError:
+        raise
     except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
         raise FileError(f"{origin}: the file is damaged or cut short ({_first_line(error)})") from error
-    _check_schema(data, origin)
-    return data
+
+
+def _check_size(data: xarray.Dataset, origin: str) -> None:
+    """A small file may promise arrays of any size: they are looked at before they are made."""
+    if data.nbytes > 0.5 * memory():
+        raise FileError(f"{origin}: its arrays take {in_words(data.nbytes)}, and this machine has {in_words(memory())}")
 
 
 def _check_schema(data: xarray.Dataset, origin: str) -> None:
     version = data.attrs.get("result_schema")
     if version is None:
         raise FileError(f"{origin}: a NetCDF4 file, but not a result written by Umbilical")
-    if version != RESULT_SCHEMA:
+    if not isinstance(version, Integral) or version != RESULT_SCHEMA:
         raise FileError(
             f"{origin}: result layout {version}, and this version of Umbilical reads layout {RESULT_SCHEMA}; "
             "read it with xarray, or simulate its scenario again"
@@ -83,10 +94,10 @@ def _columns(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
     """Name, unit and values of every column, time first."""
     yield "time", data["time"].attrs["units"], data["time"].values
     for name, array in data.data_vars.items():
-        unit = array.attrs["units"]
+        unit = array.attrs.get("units", "")
         if array.dims == ("time",):
             yield str(name), unit, array.values
-        elif array.dims[:1] == ("time",) and array.dims[1] != "sigma":
+        elif array.ndim == 2 and array.dims[0] == "time" and array.dims[1] != "sigma":
             numbers = data[array.dims[1]].values
             yield from ((f"{name}_{k}", unit, array.values[:, j]) for j, k in enumerate(numbers))
 
@@ -96,7 +107,7 @@ def to_mat(data: xarray.Dataset) -> bytes:
     from scipy.io import savemat
 
     content: dict[str, object] = {str(name): array.values for name, array in data.variables.items()}
-    content["units"] = {str(name): array.attrs["units"] for name, array in data.variables.items()}
+    content["units"] = {str(name): array.attrs.get("units", "") for name, array in data.variables.items()}
     content |= {name: data.attrs[name] for name in ("title", "scenario", "scenario_hash", "convention")}
     file = io.BytesIO()
     savemat(file, content, oned_as="column", long_field_names=True)

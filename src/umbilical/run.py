@@ -6,7 +6,7 @@ import html
 import json
 import os
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from importlib.metadata import version
@@ -16,6 +16,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umbilical import __version__, files
+from umbilical.contents import (
+    CONTENTS,
+    check,
+    contents_of,
+    instant,
+    json_of,
+    kind_of,
+    one_of,
+    refuse,
+    stated_sizes,
+    text,
+    whole_number,
+    wrong_array,
+)
 from umbilical.errors import FileError, OutputError, ScenarioError
 from umbilical.formats import EXPORTS, RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, Quantity
@@ -103,13 +117,18 @@ class Run:
     @property
     def notices(self) -> tuple[str, ...]:
         """What the user should know about this run."""
-        return tuple(json.loads(self.data.attrs["notices"]))
+        return (*json.loads(self.data.attrs["notices"]), *self._cut())
 
     @property
     def metrics(self) -> dict[str, float]:
         """Single numbers by name, in SI units; their words are :data:`umbilical.quantities.METRICS`."""
-        names = [str(name) for name in self.data.data_vars if str(name).startswith(_METRIC)]
-        return {name.removeprefix(_METRIC): float(self.data[name]) for name in names}
+        names = [str(name).removeprefix(_METRIC) for name in self.data.data_vars if str(name).startswith(_METRIC)]
+        return {name: float(self.data[_METRIC + name]) for name in names if name in METRICS}
+
+    def _cut(self) -> tuple[str, ...]:
+        """What must be said of a part of a run: its metrics are not the part's own."""
+        left, of = self.data.sizes["time"], stated_sizes(self.data)["time"]
+        return (f"{left} of {of} samples are left; the metrics are those of the whole run",) * (left < of)
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name} {size}" for name, size in self.data.sizes.items())
@@ -119,7 +138,8 @@ class Run:
         rows = "".join(
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows()
         )
-        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>"
+        notes = "".join(f"<p>{html.escape(notice)}</p>" for notice in self.notices)
+        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>{notes}"
 
     def summary(self) -> str:
         """How it ended and every metric, as an aligned table of text."""
@@ -202,6 +222,7 @@ def assemble(
         "notices": json.dumps(list(notices), ensure_ascii=False),
     }
     data = xarray.Dataset(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
+    data.attrs[CONTENTS] = contents_of(data)
     return Run(data, scenario, dict(timing or {}))
 
 
@@ -266,9 +287,30 @@ def scenario_text(path: str | os.PathLike[str]) -> str:
     return _of_a_run(path).attrs["scenario"]
 
 
+_ORIGIN = dict.fromkeys(("title", "convention", "scenario", "scenario_hash", "reason"), text)
+_VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text)
+_ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
+
+
 def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
-    if "scenario" not in data.attrs:
-        kind = data.attrs.get("kind", "something else")
-        raise FileError(f"{path}: this is the result of a {kind}, not of a run; `umbilical show` reads it")
+    if (kind := kind_of(data)) != "run":
+        raise FileError(f"{path}: this is the result of a {kind}, not of a run")
+    check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number}, "time", str(path))
+    refuse(filter(None, _wrong_arrays(data)), str(path))
     return data
+
+
+def _wrong_arrays(data: xarray.Dataset) -> Iterator[str]:
+    """What keeps arrays from being those of a run."""
+    for name in map(str, data.variables):
+        if name in CHANNELS:
+            dims = ("time", SECOND_DIMENSION[name]) if name in SECOND_DIMENSION else ("time",)
+            yield wrong_array(data[name], dims, "f")
+        elif name.startswith(_METRIC):
+            yield wrong_array(data[name], (), "f")
+        elif name in data.sizes:
+            yield wrong_array(data[name], (name,), "fiu")
+    times = data["time"].values
+    if times.dtype.kind == "f" and not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
+        yield "time: must be finite and increase"

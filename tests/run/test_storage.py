@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import platform
+import re
 import time
 from datetime import datetime
 
@@ -166,3 +167,80 @@ def test_exports_have_no_clock_and_never_overwrite_unasked(run, tmp_path, to):
 def test_an_unknown_format_is_refused(run, tmp_path):
     with pytest.raises(OutputError, match="no format 'xlsx'; there are csv, mat"):
         run.export(tmp_path / "a.xlsx", "xlsx")
+
+
+ATTRIBUTES = ("title", "convention", "scenario", "scenario_hash", "seed", "status", "reason", "end_time", "notices")
+
+
+@pytest.mark.parametrize("name", [*ATTRIBUTES, "contents", "result_schema", "version_numpy"])
+@pytest.mark.parametrize("value", [None, 5.5, "[" * 5000, np.array([1, 2])], ids=["none", "5.5", "[", "array"])
+def test_a_changed_attribute_is_named(run, tmp_path, name, value):
+    path = tmp_path / "changed.nc"
+    attributes = {key: item for key, item in run.data.attrs.items() if key != name or value is not None}
+    data = run.data.copy()
+    data.attrs = attributes if value is None else attributes | {name: value}
+    path.write_bytes(_netcdf(data))
+    free = name in ("title", "convention", "scenario_hash", "reason", "version_numpy")
+    if (free and isinstance(value, str)) or (name == "end_time" and isinstance(value, float)):
+        assert open_run(path).data.attrs[name] == value
+    else:
+        with pytest.raises(FileError, match=re.escape(f"{path}: ")):
+            open_run(path)
+
+
+@pytest.mark.parametrize("name", ["displacement", "tip_displacement", "metric_tip_peak", "time", "sigma", "motor"])
+def test_what_was_taken_out_is_named(run, tmp_path, name):
+    path = tmp_path / "less.nc"
+    path.write_bytes(_netcdf(run.data.drop_vars(name)))
+    with pytest.raises(FileError, match=rf"less\.nc: (.|\n)*{name}: was taken out"):
+        open_run(path)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda data: data.isel(motor=[0]), "motor: has 1 places, and had 2"),
+        (lambda data: data.isel(sigma=slice(3)), "sigma: has 3 places, and had 9"),
+        (lambda data: data.isel(time=4), "time: the dimension is gone"),
+        (lambda data: data.isel(time=[4, 3]), "time: must be finite and increase"),
+        (lambda data: data.assign(displacement=data["displacement"].T), r"displacement: is over \(sigma, time\)"),
+        (lambda data: data.assign(kappa=data["kappa"].astype(str)), "kappa: holds"),
+        (lambda data: data.assign(tip_displacement=data["tip_displacement"].assign_attrs(units=5)), "units must be"),
+    ],
+)
+def test_arrays_that_are_not_those_of_a_run_are_named(run, tmp_path, change, words):
+    path = tmp_path / "other.nc"
+    path.write_bytes(_netcdf(change(run.data)))
+    with pytest.raises(FileError, match=rf"other\.nc: (.|\n)*{words}"):
+        open_run(path)
+
+
+def test_metrics_of_a_part_are_marked_as_those_of_the_whole_run(run, tmp_path):
+    path = tmp_path / "part.nc"
+    path.write_bytes(_netcdf(run.data.isel(time=slice(0, 5))))
+    part = open_run(path)
+    note = "5 of 21 samples are left; the metrics are those of the whole run"
+    assert part.notices == (*run.notices, note)
+    assert note in part.summary()
+    assert note in part._repr_html_()
+    assert open_run(part.save(tmp_path / "again.nc")).notices == part.notices
+
+
+def test_a_unit_that_is_read_as_a_date_elsewhere_stays_a_number(run, tmp_path):
+    path = tmp_path / "dated.nc"
+    run.data["time"].attrs["units"] = "seconds since 2000-01-01"
+    path.write_bytes(_netcdf(run.data))
+    assert open_run(path)["time"].dtype == float
+
+
+def test_arrays_larger_than_the_machine_are_refused_before_they_are_made(tmp_path):
+    import h5netcdf
+
+    path = tmp_path / "bomb.nc"
+    with h5netcdf.File(path, "w") as file:
+        file.attrs["result_schema"] = 2
+        file.dimensions = {"time": 10**7, "sigma": 10**7}
+        file.create_variable("displacement", ("time", "sigma"), "f8", chunks=(1000, 1000))
+    assert path.stat().st_size < 100_000
+    with pytest.raises(FileError, match="its arrays take 8e"):
+        open_run(path)

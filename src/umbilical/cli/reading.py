@@ -132,7 +132,9 @@ def _comparison(runs: list[Run], files: list[Path]) -> str:
         cells = [cell for run in runs for cell in _value_and_ratio(run.metrics.get(name), first)]
         rows.append([name, shown_unit(METRICS[name].unit), *cells])
     columns = [k for k in range(len(head)) if k != 3]  # the first result's ratio to itself
-    return table([[row[k] for k in columns] for row in rows], right=range(2, len(columns)))
+    aligned = table([[row[k] for k in columns] for row in rows], right=range(2, len(columns)))
+    notes = [f"  note: {file}: {notice}" for run, file in zip(runs, files, strict=True) for notice in run.notices]
+    return "\n".join([aligned, *notes])
 
 
 def _value_and_ratio(value: float | None, first: float | None) -> tuple[str, str]:

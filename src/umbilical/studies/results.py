@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical import __version__, files
+from umbilical.contents import CONTENTS, check, contents_of, json_of, kind_of, refuse, text, wrong_array
 from umbilical.errors import FileError
 from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import METRICS
@@ -21,7 +22,7 @@ from umbilical.run import CONVENTION
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.distributions import Drawn
-from umbilical.studies.members import Draws, units_of_a_fault, variables
+from umbilical.studies.members import Draws, units_of_a_fault
 from umbilical.studies.rows import NAMES, STATUSES, Row
 from umbilical.studies.study import Study
 
@@ -125,7 +126,9 @@ def assemble(study: Study, rows: Iterable[Row]) -> StudyResult:
     named["reason"] = (dims, reason, {"long_name": "why it did not complete"})
     named["end_time"] = (dims, end, _words("s", "instant the run ended at"))
     named["point"] = (("member", "variable"), draws.points, _words("1", "draws in the unit cube"))
-    return StudyResult(xarray.Dataset(named, _coordinates(study, draws), _identity(study)), study)
+    data = xarray.Dataset(named, _coordinates(study, draws), _identity(study))
+    data.attrs[CONTENTS] = contents_of(data)
+    return StudyResult(data, study)
 
 
 def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
@@ -197,38 +200,13 @@ def open_study(path: str | os.PathLike[str]) -> StudyResult:
     from umbilical.scenario.document import read
     from umbilical.studies.load import admit_study
 
-    data = _open(path)
+    data, origin = _open(path), f"{path}: the study inside"
     try:
-        origin = f"{path}: the study inside"
         study = admit_study(read(data.attrs["study"], origin), origin)
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
-    if wrong := _misfit(data, study):
-        raise FileError(f"{path}: {wrong}; the file was changed since Umbilical wrote it")
+    refuse(filter(None, _wrong_arrays(data, study)), str(path))
     return StudyResult(data, study)
-
-
-def _misfit(data: xarray.Dataset, study: Study) -> str:
-    """What of a file does not fit the study inside; empty if all does."""
-    shape = {"member": len(Draws(study)), "arm": len(study.arms)}
-    if "arm" not in data.variables or [str(name) for name in data["arm"].values.ravel()] != [
-        a.name for a in study.arms
-    ]:
-        return "`arm` is not the study's list of arms"
-    for name in ("status", "reason", "end_time", *(name for name in METRICS if name in data)):
-        if name not in data:
-            return f"`{name}` is missing"
-        if dict(data[name].sizes) != shape:
-            return f"`{name}` is {dict(data[name].sizes)} and not {shape}"
-        if data[name].dtype.kind not in (_KINDS.get(name, "f")):
-            return f"`{name}` holds {data[name].dtype}"
-    if not np.isin(data["status"].values, range(len(STATUSES))).all():
-        return "`status` holds what is no status"
-    return next((f"`{v.name}` is missing" for v in variables(study) if v.name not in data), "")
-
-
-_KINDS = {"status": "iu", "reason": "OU"}
-"""Kinds of numpy types; of all others floats."""
 
 
 def study_of_file(path: str | os.PathLike[str]) -> str:
@@ -238,17 +216,38 @@ def study_of_file(path: str | os.PathLike[str]) -> str:
 
 def is_study_file(path: str | os.PathLike[str]) -> bool:
     """Whether a result file is a study's; raises FileError for what is no result."""
-    return _kind(from_netcdf(files.read(path), str(path))) == KIND
+    return kind_of(from_netcdf(files.read(path), str(path))) == KIND
 
 
-def _kind(data: xarray.Dataset) -> str:
-    return str(data.attrs.get("kind"))  # of a changed file it may be an array
+_RULES = {
+    **dict.fromkeys(("title", "convention", "study", "study_hash"), text),
+    **dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text),
+    "limits": json_of(dict, int, float),
+}
 
 
 def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
-    if _kind(data) != KIND:
-        raise FileError(f"{path}: this is the result of a run, not of a study")
-    if not isinstance(data.attrs.get("study"), str):
-        raise FileError(f"{path}: the attribute `study`, the text of the study, is missing or no text")
+    if (kind := kind_of(data)) != KIND:
+        raise FileError(f"{path}: this is the result of a {kind}, not of a study")
+    check(data, _RULES, "", str(path))
     return data
+
+
+def _wrong_arrays(data: xarray.Dataset, study: Study) -> Iterator[str]:
+    """What keeps arrays from being those of the study."""
+    cells = ("member", "arm")
+    kinds = {"status": "i", "reason": "U", "end_time": "f"}
+    yield from (wrong_array(data[name], cells, kinds[name]) for name in kinds)
+    yield from (wrong_array(data[name], cells, "f") for name in METRICS if name in data)
+    yield wrong_array(data["point"], ("member", "variable"), "f")
+    yield from (wrong_array(data[v.name], ("member",), "fiuU") for v in Draws(study).variables)
+    yield wrong_array(data["arm"], ("arm",), "U")
+    if data["arm"].values.tolist() != [arm.name for arm in study.arms]:
+        yield f"arm: must be those of the study inside, {', '.join(arm.name for arm in study.arms)}"
+    if not np.array_equal(data["member"].values, np.arange(1, len(Draws(study)) + 1)):
+        yield f"member: must run from 1 to {len(Draws(study))}"
+    if not np.isin(data["status"].values, range(len(STATUSES))).all():
+        yield f"status: must be from 0 to {len(STATUSES) - 1}"
+    if data["status"].attrs.get("flag_meanings") != " ".join(STATUSES):
+        yield f"status: its flag_meanings must be {' '.join(STATUSES)}"
