@@ -49,7 +49,7 @@ def test_one_long_reason_costs_its_own_length_only():
 
 
 def test_what_the_machine_cannot_hold_is_refused_with_the_number(monkeypatch, tmp_path):
-    monkeypatch.setattr(room, "machine_memory", lambda: 1e9)
+    monkeypatch.setattr(room.machine, "memory", lambda: 1e9)
     monkeypatch.setattr(Draws, "points", property(lambda self: pytest.fail("it was drawn")))
     tuning = {"arm": "PD", "gains": [{"key": "control.law.position_gain", "low": 1.0, "high": 2.0}]}
     study = small_study(members=10_000_000, tuning={**tuning, "objectives": [{"metric": "tip_peak"}]})
@@ -72,7 +72,7 @@ def test_a_grid_counts_its_own_members():
 
 
 def test_the_machine_has_memory():
-    assert room.machine_memory() > 1e8
+    assert room.machine.memory() > 1e8
 
 
 @pytest.mark.parametrize("engine", [engines.threads(2), pytest.param(engines.processes(2), marks=pytest.mark.slow)])

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from math import inf
-from pathlib import Path
-
+from umbilical import machine
 from umbilical.errors import Problem, ScenarioError
 from umbilical.studies.designs import size
 from umbilical.studies.distributions import count
@@ -18,7 +15,6 @@ _COPIES = 5
 """Of every number, while a result is assembled and written: rows, columns, the file and its buffers."""
 _CELL, _DRAW, _MEMBER = 100, 100, 300
 """Bytes beside the metrics of a member in an arm (status, time, reason), of one of its draws, and of the member."""
-_CONTROL_GROUPS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
 
 
 def members_of(study: Study) -> int:
@@ -32,24 +28,13 @@ def memory_needed(study: Study) -> int:
     return members_of(study) * (cells + _DRAW * len(variables(study)) + _MEMBER)
 
 
-def machine_memory() -> float:
-    """Bytes of main memory this process may use; infinite where the system does not tell."""
-    limits = [inf]
-    if "SC_PHYS_PAGES" in getattr(os, "sysconf_names", {}):
-        limits.append(float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")))
-    for name in _CONTROL_GROUPS:
-        text = Path(name).read_text().strip() if Path(name).is_file() else ""
-        limits += [float(text)] if text.isdecimal() else []
-    return min(limits)
-
-
 def check_memory(study: Study) -> None:
     """Refuse a study whose result this machine could not hold.
 
     Raises:
         ScenarioError: with the memory it needs, what there is, and how many members that is enough for.
     """
-    need, there = memory_needed(study), machine_memory()
+    need, there = memory_needed(study), machine.memory()
     if need > there:
         members = members_of(study)
         raise ScenarioError(
