@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from umbilical.reproduce.claims_adaptation import a1, a2, a3
-from umbilical.reproduce.claims_faults import c6, c7a, c7b, c7c, c8, c9
+from umbilical.reproduce.claims_faults import c6, c7a, c7b, c7c, c8, c9, c11
+from umbilical.reproduce.claims_sensing import c10
+from umbilical.reproduce.claims_theorems import t1, t2a, t2b, t3
 from umbilical.reproduce.claims_vibration import c1, c2, c3, c4, c5
 from umbilical.reproduce.ledger import Evidence, Finding
 
-CLAIMS = (c1, c2, c3, c4, c5, c6, c7a, c7b, c7c, c8, c9, a1, a2, a3)
+CLAIMS = (c1, c2, c3, c4, c5, c6, c7a, c7b, c7c, c8, c9, c10, c11, t1, t2a, t2b, t3, a1, a2, a3)
 
 
 def judge(evidence: Evidence) -> tuple[Finding, ...]:

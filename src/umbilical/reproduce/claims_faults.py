@@ -270,3 +270,39 @@ def c9(evidence: Evidence) -> Finding:
         f"what moves faster than {short(limit_D)} rad/s is not given to a tenth (k_s = {slow:g} 1/s).",
         f"a motor's disturbance is slower than {short(limit)} rad/s",
     )
+
+
+def c11(evidence: Evidence) -> Finding:
+    """With fault control the vibration is suppressed with and without a fault, against no control."""
+    runs, free = evidence.runs, evidence.runs["free"]
+    worst = {case: _worst_left(runs[cell(case, "with")], free) for case in CASES}
+    long = runs["none, with, endless"].metrics["tip_peak"] / runs["free, long"].metrics["tip_peak"]
+    blind = {case: runs[f"blind, {case}, with"] for case in ("none", "dead", "stuck")}
+    alone = {case: _worst_left(run, free) for case, run in blind.items() if completed([run])}
+    lost = [case for case in blind if case not in alone]
+    tried = len(blind) + 1
+    lost += ["none, 400 s"] if not completed([runs["blind, none, with, long"]]) else []
+    kept = {case: completed([runs[cell(case, "with")]]) and left < 1.0 for case, left in worst.items()}
+    return Finding(
+        "C11",
+        "With fault control the vibration is suppressed with a fault and without one.",
+        "Largest ratio to no control over l/4, l/2, 3l/4 and l, of peaks and of root mean squares; below 1, and the "
+        "run comes to its end.",
+        (
+            *(Number(f"{c}_worst", v, "1", f"worst ratio with fault control, {c}") for c, v in worst.items()),
+            Number("long_left", long, "1", "peak of the ROV in 4000 s over that without control in 400 s"),
+            *(Number(f"blind_{c}_worst", v, "1", f"the same without the observer, {c}") for c, v in alone.items()),
+            Number("blind_lost", len(lost), "1", f"of {tried} runs without the observer: diverge", Kind.COUNT),
+        ),
+        decide(all(kept.values()), any(kept.values())),
+        f"Of what there is without control, {_shares(worst)} is left at most.",
+        f"Over 4000 s {percent(long)} of the peak of 400 s without control. Without the disturbance observer "
+        f"{_shares(alone)}; {len(lost)} of {tried} runs diverge ({'; '.join(lost) or 'none'}).",
+        "it is asked of " + " and ".join(case for case, yes in kept.items() if yes),
+    )
+
+
+def _worst_left(run: Run, free: Run) -> float:
+    """Largest ratio of peaks and root mean squares to those of another run, over the four places."""
+    names = [f"{at}_{kind}" for at in ("quarter", "mid", "three_quarter", "tip") for kind in ("peak", "rms")]
+    return max(run.metrics[name] / free.metrics[name] for name in names)

@@ -36,6 +36,8 @@ TOLERANCES: dict[Kind, tuple[str, float, str]] = {
     ),
     Kind.EDGE: ("relative", 0.03, "an edge of stability; on three grids it is the same within this"),
     Kind.CROSSING: ("relative", 0.03, "where two curves cross, along straight lines between points of a scan"),
+    Kind.SOLVED: ("relative", 0.01, "solved without a grid: an ordinary differential equation or a frequency response"),
+    Kind.SEARCH: ("relative", 0.03, "the end of a search, which another processor may end a little elsewhere"),
 }
 """How far a number of each kind may move, and why so far."""
 

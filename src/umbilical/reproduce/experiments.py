@@ -95,6 +95,12 @@ def _beyond_the_paper() -> Iterable[Experiment]:
     sines = load("paper").to_dict()["environment"]["payload_force"][1:]
     smooth = {"environment.payload_force": sines}
     yield Experiment("proposed, no jump", "paper", "proposed law, the load's steady part left out", smooth)
+    sampled = smooth | {"duration": 10.0, "output.interval": 0.001, "grid.elements": 32}
+    yield Experiment("proposed, no jump, sampled", "paper", "the same, every sample of the sensors stored", sampled)
+    lasting = {"duration": 1000.0, "output.interval": 0.5, "grid.elements": GRIDS[0]}
+    yield Experiment(
+        "dead, with, lasting", "paper-dead-adaptive", "dead, with fault control, 20 times as long", lasting
+    )
     yield Experiment("ringdown", "ringdown", "vibration already in the cable, no loads")
     for arm in ARMS:
         yield Experiment(f"blind, none, {arm}", preset("none", arm), f"no fault, {arm}; no disturbance observer", BLIND)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from umbilical.reproduce.experiments import Runs
+from umbilical.reproduce.proofs import Proofs
 from umbilical.run import Run, Status
 
 if TYPE_CHECKING:
@@ -40,6 +41,8 @@ class Kind(Enum):
     INSTANT = "instant"
     EDGE = "edge"
     CROSSING = "crossing"
+    SOLVED = "solved"
+    SEARCH = "search"
 
 
 class Number(NamedTuple):
@@ -97,12 +100,14 @@ class Evidence(NamedTuple):
         gain: the scan of the gain of the allocation.
         edges: where the loop runs away, by case, arm and observer.
         maps: by name; empty when they were left out.
+        proofs: what can be proved of the proposed law's loop.
     """
 
     runs: Runs
     gain: xarray.Dataset
     edges: Mapping[tuple[str, str, str], Edge]
     maps: Mapping[str, xarray.Dataset]
+    proofs: Proofs
 
 
 UNMAPPED = "The maps were left out (--no-maps)."

@@ -14,9 +14,10 @@ from umbilical.formats import to_netcdf
 from umbilical.plots.figure import render
 from umbilical.plots.paper.style import RESOLUTION
 from umbilical.reproduce.claims import judge
-from umbilical.reproduce.experiments import EXPERIMENTS, Runs
+from umbilical.reproduce.experiments import EXPERIMENTS, Runs, cell
 from umbilical.reproduce.figures import PICTURES, Picture, needed
 from umbilical.reproduce.ledger import Evidence, Finding
+from umbilical.reproduce.proofs import prove
 from umbilical.reproduce.regions import edges
 from umbilical.reproduce.slices import GAIN, MAPS, NAMES, compute_slices
 from umbilical.reproduce.tabular import to_csv
@@ -94,7 +95,7 @@ def reproduce(
 def evidence(runs: Runs, scans: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> Evidence:
     """What claims are judged by, from runs and scans, with the edges of stability looked for."""
     gain, maps = scans[GAIN], {name: scans[name] for name in MAPS if name in scans}
-    return Evidence(runs, gain, edges(gain, progress), maps)
+    return Evidence(runs, gain, edges(gain, progress), maps, prove(runs[cell("none", "without")].scenario))
 
 
 def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:

@@ -1,0 +1,94 @@
+"""What the proofs of Theorems 1 and 3 need, asked of our certificate and of the linearised sampled loop."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.analysis.certificate import certify, largest_bounds
+from umbilical.analysis.certificate.cure import best_rate
+from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges
+from umbilical.analysis.impedance import hanging_cable
+from umbilical.analysis.margins import judge, usual_lengths, usual_thrust
+from umbilical.analysis.nyquist import stability, sweep
+from umbilical.analysis.sampled import sampled_loop
+from umbilical.reproduce.work import in_parallel
+from umbilical.scenario import Scenario
+
+BETA = "control.law.slope_gain"
+CERTIFIED = (0.1, 2.0)
+"""m/s, slope gains between which the least one that can be certified lies."""
+STABLE = (0.05, 0.8)
+"""m/s, those between which the cascade becomes unstable."""
+HALVINGS = (9, 5)
+"""Of the two brackets: the first edge is then known to 0.6 per cent, the second to 9."""
+
+
+class Proofs(NamedTuple):
+    """What can be proved of the ideal loop, and whether the cascade is stable.
+
+    Attributes:
+        rate: best rate of V over the run at the paper's gains, 1/s; proved if it is positive.
+        fixed_rate: proved rate with the winch stopped at its greatest length, 1/s; nan where none is.
+        fixed_bound: bound of \\|y\\| that follows there, m.
+        broken: names of iota_1 to iota_7 that are negative, as printed.
+        certified: slope gain from which on a rate over the run is proved, m/s.
+        stable: whether the linearised sampled loop is stable at the paper's gains and the shortest length.
+        delay: extra delay it survives, s; nan where it is unstable.
+        unstable_from: slope gain from which on it is unstable, m/s.
+    """
+
+    rate: float
+    fixed_rate: float
+    fixed_bound: float
+    broken: tuple[str, ...]
+    certified: float
+    stable: bool
+    delay: float
+    unstable_from: float
+
+
+def prove(scenario: Scenario) -> Proofs:
+    """Everything, for a scenario with the boundary law and a winch that moves."""
+    lengths = usual_lengths(scenario)
+    still = scenario.replace({"winch": {"law": "constant", "length": lengths[-1]}})
+    ours, fixed = in_parallel(lambda one: certify(one, cure=False), (scenario, still))
+    bounds, cascade = largest_bounds(fixed), judge(scenario, lengths[0])
+    return Proofs(
+        rate=ours.rate,
+        fixed_rate=fixed.rate if fixed.holds else float("nan"),
+        fixed_bound=bounds.tip_largest if bounds else float("inf"),
+        broken=tuple(condition.name for condition in ours.paper if not condition.holds),
+        certified=least_certified(scenario),
+        stable=cascade.stable,
+        delay=cascade.margins.delay.size if cascade.margins else float("nan"),
+        unstable_from=edge(lambda beta: cascade_stable(scenario.replace({BETA: beta})), STABLE, HALVINGS[1]),
+    )
+
+
+def least_certified(scenario: Scenario) -> float:
+    """Slope gain from which on a positive rate of V is proved over the run of a scenario, m/s; nan if none is."""
+    winch = scenario.winch
+    loop, motion = loop_of(scenario), sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration))
+    found = edge(lambda beta: best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0, CERTIFIED, HALVINGS[0])
+    proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), cure=False).holds
+    return found if proved else float("nan")
+
+
+def cascade_stable(scenario: Scenario) -> bool:
+    """Whether the linearised sampled loop is stable at the shortest length of the run: observers, motors and all."""
+    loop = sampled_loop(scenario, usual_thrust(scenario))
+    return stability(sweep(hanging_cable(scenario, usual_lengths(scenario)[0]), loop)).unstable == 0
+
+
+def edge(holds: Callable[[float], bool], between: tuple[float, float], halvings: int) -> float:
+    """From where on something no longer holds, by halving on the scale of logarithms; nan if it is not between."""
+    low, high = between
+    if not holds(low) or holds(high):
+        return float("nan")
+    for _ in range(halvings):
+        middle = float(np.sqrt(low * high))
+        low, high = (middle, high) if holds(middle) else (low, middle)
+    return high
