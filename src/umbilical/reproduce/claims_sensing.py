@@ -108,7 +108,7 @@ def c10(evidence: Evidence) -> Finding:
         f"{_each(shares, 'two poles')}. At the preset's eps it passes on 1/{short(quieter['difference'])} of the noise "
         f"of the difference, 1/{short(quieter['one pole'])} of that behind one pole and {short(twin)} of that behind "
         f"two: the observer is a difference behind two poles, and only at an eps of {short(alike)} s or less do they "
-        "differ.",
+        "differ, where the held sample lowers the observer's gain by (h/eps)^2/12.",
         "Exact samples are differentiated better by the difference, because the observer lags; it wins from a noise "
         f"of {short(plain['x2'])} m in y(l,t) and {short(plain['z2'])} rad in y_x(l,t) on (at the worst eps "
         f"{short(worst['x2'])} m and {short(worst['z2'])} rad). Its error is as large as the rate itself from "

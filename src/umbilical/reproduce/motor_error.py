@@ -56,9 +56,12 @@ def decade_times(rate: Rate, start: tuple[float, float] = START, decades: int = 
 
     levels = start[0] * 10.0 ** -np.arange(1, decades + 1)
     events = [partial(_above, level=level) for level in levels]
+    setattr(events[-1], "terminal", True)  # noqa: B010  # scipy's way to stop at an event
     found = solve_ivp(rate, (0.0, HORIZON), start, method="Radau", rtol=1e-8, atol=1e-14, events=events)
     reached = np.array([times[0] if len(times) else np.inf for times in found.t_events])
-    return np.diff(np.concatenate([[0.0], reached]))
+    with np.errstate(invalid="ignore"):
+        steps = np.diff(np.concatenate([[0.0], reached]))
+    return np.where(np.isfinite(steps), steps, np.inf)
 
 
 def _above(t: float, e: np.ndarray, level: float) -> float:
