@@ -7,6 +7,7 @@ import pytest
 
 from tests.reproduce.test_claims import given
 from umbilical.control.observers.high_gain import (
+    HighGainMemory,
     advance_high_gain,
     derivative_estimate,
     make_high_gain,
@@ -25,7 +26,7 @@ TIME = np.arange(40_000) * PERIOD
 def by_the_controller(samples: np.ndarray) -> np.ndarray:
     """The estimate as the controller's own observer makes it."""
     made = make_high_gain(HighGainObserver(time_constant=EPS, damping=2.0), PERIOD)
-    state, found = np.zeros(2), np.zeros(samples.size)
+    state, found = HighGainMemory.one(), np.zeros(samples.size)
     start_high_gain(state, samples[0])
     for k in range(1, samples.size):
         advance_high_gain(made, state, samples[k])

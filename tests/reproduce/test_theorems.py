@@ -11,6 +11,7 @@ import sympy
 from tests.reproduce.test_claims import given
 from umbilical.admission import load
 from umbilical.control.motor.backstepping import Backstepping, backstepping_drive
+from umbilical.control.motor.command_filter import Reference
 from umbilical.relations.formulas import motor_constants
 from umbilical.reproduce import claims_theorems, motor_error, proofs
 from umbilical.reproduce.experiments import Runs
@@ -40,7 +41,7 @@ def rates_of_the_controller(e: np.ndarray, reference: np.ndarray, h: float = 1e-
     speed = reference[0] + e[0]
     current = wanted(speed, reference) + e[1]
     speed_rate = current + c.f11 * speed + c.f12 * speed * abs(speed)
-    drive = backstepping_drive(c, gains, speed, current, reference)
+    drive = backstepping_drive(c, gains, speed, current, Reference.one(*reference))
     current_rate = c.f21 * speed + c.f22 * current + drive
     ahead, behind = (
         wanted(speed + s * h * speed_rate, reference + s * h * np.array([reference[1], reference[2], 0.0]))
