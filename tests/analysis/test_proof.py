@@ -12,6 +12,7 @@ from mpmath.ctx_iv import MPIntervalContext
 import umbilical
 from tests.support.certificates import GAIN, fixed, hauled_in
 from umbilical.analysis.certificate import Certificate, Proof, Weights
+from umbilical.analysis.certificate.proof import _least as least
 from umbilical.analysis.certificate.proof import prove
 from umbilical.analysis.certificate.proof_motion import motion_over
 from umbilical.analysis.certificate.setting import loop_of, slab_edges
@@ -147,3 +148,21 @@ def test_a_wrong_winch_falls_out_of_the_boxes() -> None:
     wrong = law.model_copy(update={"end_length": 350.5})
     box = motion_over(ctx, law, 12.0, 12.001)[1]
     assert not float(box.a) <= float(laws.evaluate(wrong, 12.0005).speed) <= float(box.b)
+
+
+def test_a_winch_faster_than_the_waves_proves_nothing(paying_out: Certificate) -> None:
+    """At the vessel the waves of 300 m of the paper's cable travel at 74 m/s."""
+    loop, weights = paying_out.loop, paying_out.weights
+    for speed, wave in ((70.0, False), (80.0, True)):
+        winch = ConstantSpeed(law="speed", start_length=300.0, speed=speed)
+        proof = prove(loop, winch, np.array([0.0, 0.01]), np.array([1e-3]), weights, strict=False)
+        assert ("wave" in opened(proof)) is wave
+
+
+def test_what_is_least_at_an_end_is_least_there() -> None:
+    """A line minus a positive multiple of a line squared, against a fine look."""
+    rng, s = np.random.default_rng(3), np.linspace(0.0, 1.0, 1001)
+    for _ in range(50):
+        ends, line, factor = rng.normal(size=2), rng.normal(size=2), rng.uniform(0.1, 3.0)
+        values = ends[0] + s * (ends[1] - ends[0]) - factor * (line[0] + s * (line[1] - line[0])) ** 2
+        assert min(least(tuple(ends), tuple(line), factor)) == pytest.approx(values.min())

@@ -12,6 +12,7 @@ from umbilical.control.contract import Command
 from umbilical.engine.saturation import thrust_capability
 from umbilical.engine.simulate import measure
 from umbilical.plant.motors import make_motors, shaft_acceleration
+from umbilical.relations.formulas import motor_constants
 from umbilical.studies.rows import NAMES
 
 EVERY_SAMPLE = {"duration": 0.5, "output.interval": 0.001}
@@ -75,6 +76,22 @@ def test_a_command_that_ran_away_is_told_and_stored(tmp_path) -> None:
     assert again.notices == run.notices
     assert told in again.summary()
     assert json.loads(again.data.attrs["notices"]) == list(run.notices)
+
+
+def test_voltages_are_measured_over_all_motors() -> None:
+    run = umbilical.simulate(umbilical.load("paper", EVERY_SAMPLE))
+    assert run.metrics["motor_voltage_rms"] == pytest.approx(np.sqrt(np.mean(stored(run, "motor_voltage") ** 2)))
+
+
+def test_the_motor_observer_knows_the_limit_of_its_drive() -> None:
+    """Held at 1 V while kilovolts are wanted, it estimates the disturbance that is there: none."""
+    quiet = {f"motors.{k}.{name}_disturbance": [] for k in (1, 2) for name in ("torque", "voltage")}
+    limits = {f"motors.{k}.voltage_limit": 1.0 for k in (1, 2)}
+    shape = {"initial": {"shape": "static", "force": 2000.0}}
+    run = umbilical.simulate(umbilical.load("paper", EVERY_SAMPLE | quiet | limits | shape))
+    assert run.metrics["saturated_share"] > 0.9
+    of_one_volt = motor_constants(run.scenario.motors[0]).f23
+    assert np.abs(stored(run, "motor_disturbance_estimate")[100:]).max() < 0.01 * of_one_volt
 
 
 def test_capability_is_the_steady_thrust_at_the_limits() -> None:

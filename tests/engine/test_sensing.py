@@ -99,3 +99,17 @@ def test_the_seed_is_the_noise() -> None:
     recorder = Recorder(Command(voltage=np.array([8.0, -5.0])))
     run(small("paper", seed=7, sensors__tip_slope__noise=1e-3), recorder)
     assert (np.array([m.tip_slope for m in recorder.seen]) != a).all()
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_first_reading_is_never_lost(seed: int) -> None:
+    """There is nothing to hold before it; the first of a later stretch may be lost."""
+    recorder = Recorder(Command(voltage=np.zeros(2)))
+    shape = {"shape": "static", "force": 100.0}
+    run(small("paper", seed=seed, initial=shape, sensors__tip_displacement__dropout=0.99), recorder)
+    assert recorder.seen[0].tip_displacement == pytest.approx(truth_at_rest(shape), rel=1e-12)
+    assert len({m.tip_displacement for m in recorder.seen}) < 10
+
+
+def truth_at_rest(shape: dict[str, Any]) -> float:
+    return run(small("paper", initial=shape))["tip_displacement"].values[0]

@@ -74,6 +74,16 @@ def test_overlapping_faults_multiply() -> None:
     assert stuck.tolist() == [0.0, 0.0, 0.0, 9.0]
 
 
+def test_a_motor_stuck_twice_is_stuck_each_time() -> None:
+    timeline: list[Fault] = [
+        Stuck(kind="stuck", motor=1, start=1.0, end=2.0, value=9.0),
+        Stuck(kind="stuck", motor=1, start=3.0, end=4.0, value=-5.0),
+    ]
+    effectiveness, stuck = faults.effect(timeline, 1, "thrust", [0.5, 1.5, 2.5, 3.5, 4.5])
+    assert stuck.tolist() == [0.0, 9.0, 0.0, -5.0, 0.0]
+    assert effectiveness.tolist() == [1.0, 0.0, 1.0, 0.0, 1.0]
+
+
 def test_a_fault_stays_with_its_motor_and_its_target() -> None:
     fault = Dead(kind="dead", motor=2, target="voltage", start=0.0)
     assert faults.effect([fault], 2, "voltage", 0.0)[0] == 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umbilical.admission import controller, equipment, motion, sampling, steps, timeline
+from umbilical.admission import controller, equipment, motion, sampling, statics, steps, timeline
 
 CHECKS = (
     timeline.grid_of_time,
@@ -19,6 +19,7 @@ CHECKS = (
     motion.length,
     motion.tension,
     motion.wave_speed,
+    statics.static_slope,
     motion.vessel_is_continuous,
     motion.vessel_at_the_start,
     equipment.motors_are_there,

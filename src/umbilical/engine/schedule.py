@@ -68,6 +68,6 @@ def _stretch(period: float, substeps: int, begin: int, end: int, jumps: tuple[fl
     knots[nearest[on_knot]] = inside[on_knot]
     between = inside[~on_knot]
     places = np.searchsorted(knots, between)
-    first = starts + np.searchsorted(between, knots[starts], side="left")
+    first = starts + np.searchsorted(between, knots[starts])
     knots = np.insert(knots, places, between)
     return Stretch(Steps(knots[:-1], knots[1:], inside, shared), first.astype(np.int64))

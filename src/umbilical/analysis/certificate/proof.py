@@ -122,7 +122,7 @@ def _wave(b: Box) -> Iterator[Interval]:
 
 
 def _k0(b: Box) -> Iterator[Interval]:
-    yield from _bernstein((b.pull_top, b.pull), (b.n["vessel"], b.reach), b.n["rho"])
+    yield from _least((b.pull_top, b.pull), (b.n["vessel"], b.reach), b.n["rho"])
 
 
 def _k1(b: Box) -> Iterator[Interval]:
@@ -150,7 +150,7 @@ def _k5(b: Box) -> Iterator[Interval]:
     stiff = (lam - b.rate) * b.net + b.jerk
     far = [(mass * stiff + q * n["hanging"] * b.net) / 2 for mass, q in ((b.mass, n["vessel"]), (n["m"], b.reach))]
     yield from far  # without them A = B = 0 would let any C pass
-    yield from _bernstein((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
+    yield from _least((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
 
 
 def _k6(b: Box) -> Iterator[Interval]:
@@ -169,10 +169,10 @@ STRICT = ("weights", "wave", "K0", "K3")
 """Conditions that equality breaks."""
 
 
-def _bernstein(
-    ends: tuple[Interval, Interval], line: tuple[Interval, Interval], factor: Interval
-) -> Iterator[Interval]:
-    """Bernstein coefficients on [0, l] of (a line through ``ends``) - factor (a line through ``line``)^2."""
+def _least(ends: tuple[Interval, Interval], line: tuple[Interval, Interval], factor: Interval) -> Iterator[Interval]:
+    """On [0, l], (a line through ``ends``) - factor (a line through ``line``)^2: concave, so least at one of both ends.
+
+    That needs ``factor`` above 0: it is 1, or the line density, which the condition *weights* holds above 0.
+    """
     yield ends[0] - factor * line[0] ** 2
-    yield (ends[0] + ends[1]) / 2 - factor * line[0] * line[1]
     yield ends[1] - factor * line[1] ** 2

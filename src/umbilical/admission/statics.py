@@ -1,0 +1,145 @@
+"""The slope at which the cable comes to rest under loads that last: a model of small angles must allow it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.admission.findings import Finding, Notice
+from umbilical.admission.motion import sampled_winch
+from umbilical.admission.timeline import shapes, signals_of_the_environment
+from umbilical.errors import Problem
+from umbilical.plant import signals
+from umbilical.plant import winch as laws
+from umbilical.plant.exogenous import profile
+from umbilical.relations.formulas import tension
+from umbilical.scenario.control import BoundaryLaw, Control, ProportionalDerivative
+from umbilical.scenario.environment import Environment, InitialShape
+from umbilical.scenario.hardware import Cable, Payload
+from umbilical.scenario.winch import Winch
+
+_STEEP, _STEEPEST = 0.3, 1.0
+_INSTANTS, _POSITIONS = 121, 101
+
+
+class Steady(NamedTuple):
+    """Steepest slope that lasts, where it is (x/l), and whether the run is long enough to get there."""
+
+    slope: float
+    sigma: float
+    reached: bool
+
+
+def static_slope(
+    environment: Environment,
+    cable: Cable,
+    payload: Payload,
+    winch: Winch,
+    duration: float,
+    control: Control,
+    initial: InitialShape,
+) -> Iterator[Finding]:
+    """The loads that last bend the cable less than a model of small angles allows."""
+    broken = (*signals_of_the_environment(environment, duration), *shapes(environment, initial))
+    if broken or not sampled_winch(winch, duration):
+        return
+    found = steady_slope(environment, cable, payload, winch, duration, control)
+    where = f"a static slope of {found.slope:.3g} at x/l = {found.sigma:.2g}"
+    if found.slope >= _STEEPEST and found.reached:
+        yield Problem(
+            "environment",
+            f"{where}, under the loads that last",
+            f"below {_STEEPEST:g}",
+            "the cable would come to rest there, or swing beyond, and the model of small angles ends at a slope of 1",
+            f"loads below {1.0 / found.slope:.3g} times these, or a heavier payload: the slope is load over tension",
+        )
+    elif found.slope > _STEEP:
+        error = 1.0 - 1.0 / np.hypot(1.0, found.slope)
+        yield Notice(
+            "environment",
+            f"{where}, under the loads that last; a model of small angles errs by {100.0 * error:.2g} % there, and a "
+            "load that sets in at once swings the cable up to twice as far",
+        )
+
+
+def steady_slope(
+    environment: Environment, cable: Cable, payload: Payload, winch: Winch, duration: float, control: Control
+) -> Steady:
+    """Steepest static slope under loads that last for half a period of the slowest wave, two crossings of the cable.
+
+    Statics: ``T y_x = F + integral of f from x to l``, F the force that the thrusters leave on the ROV: all of it
+    without a law; what the spring ``k_p`` leaves under PD; under the boundary law, which meets the force on the ROV,
+    what it takes to hold the ROV, and less as it creeps at ``-beta y_x``. The thrusters are taken to give what the law
+    asks for.
+    """
+    if not environment.cable_load and (not environment.payload_force or isinstance(control.law, BoundaryLaw)):
+        return Steady(0.0, 0.0, True)
+    t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
+    motion = laws.evaluate(winch, t)
+    length = motion.length[:, None]
+    net = (environment.gravity - motion.acceleration)[:, None]
+    pull = tension(length * (1.0 - sigma), net, payload.mass, cable.hanging_density)
+    below = length * _from_below(_loads(environment, t, sigma), sigma)
+    carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
+    slopes = (_left_at_the_payload(environment, control, t, pull[:, -1], carried, alone)[:, None] + below) / pull
+    crossing = float(np.max(length[:, 0] * _sum(np.sqrt(cable.line_density / pull), sigma)))
+    wanted = int(np.ceil(2.0 * crossing / duration * (_INSTANTS - 1))) + 1
+    window = min(wanted, _INSTANTS)
+    lasting = np.maximum(_least(slopes, window), _least(-slopes, window)).max(axis=0)
+    worst = int(np.argmax(lasting))
+    return Steady(max(float(lasting[worst]), 0.0), float(sigma[worst]), wanted <= _INSTANTS)
+
+
+def _loads(environment: Environment, t: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    """Load on a metre of cable, N/m, shape (instants, positions)."""
+    total = np.zeros((t.size, sigma.size))
+    for load in environment.cable_load:
+        total += np.outer(signals.evaluate(load.signal, t), profile(load.profile, sigma))
+    return total
+
+
+def _left_at_the_payload(
+    environment: Environment, control: Control, t: np.ndarray, pull: np.ndarray, carried: np.ndarray, alone: np.ndarray
+) -> np.ndarray:
+    """Force on the ROV that the cable has to bear, N, shape (instants,).
+
+    With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N.
+    """
+    force = signals.evaluate(environment.payload_force, t)
+    match control.law:
+        case BoundaryLaw(slope_gain=gain):
+            return _creeping(t, carried, alone, gain / pull)
+        case ProportionalDerivative(position_gain=spring):
+            return (force - spring * carried) / (1.0 + spring * alone)
+        case _:
+            return force
+
+
+def _creeping(t: np.ndarray, carried: np.ndarray, alone: np.ndarray, rate: np.ndarray) -> np.ndarray:
+    """What the boundary law leaves: it holds the ROV and lets it creep at ``-beta y_x``, by the implicit Euler method.
+
+    The ROV is at ``carried + alone F``, starts at 0 and moves at ``-rate F``.
+    """
+    left = -carried / alone
+    for k in range(1, t.size):
+        place = carried[k - 1] + alone[k - 1] * left[k - 1]
+        left[k] = (place - carried[k]) / (alone[k] + (t[k] - t[k - 1]) * rate[k])
+    return left
+
+
+def _from_below(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    """Integral over sigma from each position to 1, by trapezoids, same shape."""
+    pieces = 0.5 * (values[:, 1:] + values[:, :-1]) * np.diff(sigma)
+    return np.append(np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], np.zeros((values.shape[0], 1)), axis=1)
+
+
+def _sum(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    """Integral over sigma from 0 to 1."""
+    return _from_below(values, sigma)[:, 0]
+
+
+def _least(values: np.ndarray, window: int) -> np.ndarray:
+    """Least value over each window of instants."""
+    return np.lib.stride_tricks.sliding_window_view(values, window, axis=0).min(axis=-1)

@@ -1,0 +1,97 @@
+"""The static slope under loads that last: closed forms, the plant itself, and what is refused or told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import umbilical
+from umbilical.admission import admit
+from umbilical.admission.statics import Steady, steady_slope
+from umbilical.errors import ScenarioError
+from umbilical.scenario import Scenario
+
+
+def of(scenario: Scenario) -> Steady:
+    s = scenario
+    return steady_slope(s.environment, s.cable, s.payload, s.winch, s.duration, s.control)
+
+
+def constant(value: float) -> list[dict[str, Any]]:
+    return [{"kind": "constant", "value": value}]
+
+
+def along(signal: list[dict[str, Any]], profile: dict[str, Any] | None = None) -> list[dict[str, Any]]:
+    return [{"profile": profile or {"shape": "uniform"}, "signal": signal}]
+
+
+DEEP = {"winch": {"law": "constant", "length": 3000.0}, "environment.payload_force": [], "duration": 300.0}
+UNCONTROLLED = {"control.law": {"kind": "none"}}
+
+
+def test_a_uniform_load_and_a_force_have_closed_forms() -> None:
+    scenario = umbilical.load("paper", DEEP | UNCONTROLLED | {"environment.cable_load": along(constant(5.0))})
+    gravity = scenario.environment.gravity
+    top = (scenario.payload.mass + 3000.0 * scenario.cable.hanging_density) * gravity
+    assert of(scenario) == (pytest.approx(5.0 * 3000.0 / top, rel=1e-9), 0.0, True)
+    pushed = umbilical.load("paper", DEEP | UNCONTROLLED | {"environment.payload_force": constant(-400.0)})
+    assert of(pushed) == (pytest.approx(400.0 / (500.0 * gravity), rel=1e-9), 1.0, True)
+    held = umbilical.load("paper", DEEP | {"environment.payload_force": constant(-400.0)})
+    assert of(held).slope == 0.0
+
+
+@pytest.mark.parametrize("law", ["none", "boundary", "pd"])
+def test_the_plant_comes_to_rest_there(law: str) -> None:
+    preset = {"none": "paper-none", "boundary": "paper", "pd": "paper-pd"}[law]
+    gaussian = {"shape": "gaussian", "center": 0.6, "width": 0.3}
+    changes = {
+        "winch": {"law": "constant", "length": 100.0}, "duration": 240.0, "initial": {"shape": "straight"},
+        "environment.payload_force": constant(300.0), "environment.cable_load": along(constant(4.0), gaussian),
+        "cable.damping": 0.5, "payload.damping": 300.0, "grid.elements": 8, "output.interval": 10.0,
+        "ideal_thruster": True,
+    }  # fmt: skip
+    scenario = umbilical.load(preset, changes)
+    run = umbilical.simulate(scenario)
+    assert np.abs(run["velocity"].values[-1]).max() < 1e-3
+    found = of(scenario)
+    rest = np.abs(run["slope"].values[-1])
+    # The boundary law lets the ROV creep for hours, and what lasts is what was there first.
+    assert found.slope == pytest.approx(rest.max(), rel=0.05 if law == "boundary" else 0.01)
+    assert run["sigma"].values[np.argmax(rest)] == pytest.approx(found.sigma, abs=0.05)
+
+
+@pytest.mark.parametrize(("load", "told"), [(1.0, False), (4.0, True)])
+def test_told_above_three_tenths(load: float, told: bool) -> None:
+    scenario = umbilical.load("paper", DEEP | {"environment.cable_load": along(constant(load))})
+    assert any("static slope" in str(notice) for notice in admit(scenario)) is told
+
+
+def test_refused_from_one_on_and_the_fix_holds() -> None:
+    deep = DEEP | {"environment.cable_load": along(constant(46.0))}
+    with pytest.raises(ScenarioError, match=r"a static slope") as caught:
+        umbilical.load("paper", deep)
+    problem = caught.value.problems[0]
+    share = float(problem.cure.split()[2])
+    eased = DEEP | {"environment.cable_load": along(constant(0.99 * share * 46.0))}
+    assert of(umbilical.load("paper", eased)).slope == pytest.approx(0.99, abs=0.01)
+
+
+@pytest.mark.parametrize("lasting", [False, True])
+def test_only_what_lasts_counts(lasting: bool) -> None:
+    """Half a period of the slowest wave is some 90 s here."""
+    pulse = [{"kind": "pulse", "value": 46.0, "start": 50.0, "end": 200.0 if lasting else 90.0}]
+    scenario = DEEP | UNCONTROLLED | {"environment.cable_load": along(pulse)}
+    if lasting:
+        with pytest.raises(ScenarioError, match="static slope"):
+            umbilical.load("paper", scenario)
+    else:
+        assert of(umbilical.load("paper", scenario)).slope == 0.0
+    sine = [{"kind": "sine", "amplitude": 46.0, "frequency": 0.5}]
+    assert of(umbilical.load("paper", DEEP | UNCONTROLLED | {"environment.cable_load": along(sine)})).slope == 0.0
+
+
+def test_a_run_too_short_to_get_there_is_told_only() -> None:
+    short = DEEP | {"duration": 10.0, "environment.cable_load": along(constant(46.0))}
+    assert any("static slope" in str(notice) for notice in admit(umbilical.load("paper", short)))
