@@ -11,7 +11,7 @@ import umbilical
 from umbilical.analysis.impedance import hanging_cable, tip_response
 from umbilical.analysis.limits import later, margins, scaled, turned
 from umbilical.analysis.margins import check, judge, judge_loop, usual_lengths, usual_thrust
-from umbilical.analysis.nyquist import stability, sweep
+from umbilical.analysis.nyquist import resolved_ratio, stability, sweep
 from umbilical.analysis.sampled import ALIASES, alias_sum, loop_response, sampled_loop
 from umbilical.errors import ScenarioError
 
@@ -99,6 +99,26 @@ def test_a_limit_separates_stable_from_unstable(name):
     counts = [stability(swept, side).unstable for side in sides]
     assert counts[0] == 0
     assert max(counts[1::2]) > 0
+
+
+@pytest.mark.parametrize("offset", [1e-1, 1e-3, -1e-3, 1e-5])
+def test_a_peak_between_two_frequencies_is_seen(offset):
+    """1/(offset + j (w - w0)) between samples 0.5 apart: its largest value, and once around where that is right."""
+    w = np.arange(0.0, 10.0, 0.5)
+    at, ratio = resolved_ratio(w, np.ones_like(w, dtype=complex), offset + 1j * (w - 3.3))
+    assert np.abs(ratio).max() == pytest.approx(1.0 / abs(offset), rel=0.05)
+    np.testing.assert_allclose(ratio, 1.0 / (offset + 1j * (at - 3.3)), rtol=1e-6)
+    assert (np.diff(at) > 0.0).all()
+
+
+def test_close_to_the_limit_of_the_endless_cable_an_echo_is_counted():
+    """Over the last milliseconds before the cable without an end is unstable, too, the count only grows."""
+    swept = sweep(replace(CABLE, damping=0.1, length=30.0), LOOP)
+    limit = margins(swept).delay.size
+    counts = [stability(swept, later(limit * (1.0 + share))) for share in np.geomspace(1e-3, 0.1, 40)]
+    assert counts[0].endless == 0
+    assert counts[-1].endless > 0
+    assert all(found.unstable >= 2 for found in counts)
 
 
 def test_delay_limit_is_that_of_late_sensors():

@@ -7,11 +7,18 @@ import sys
 from umbilical.cli import progress
 
 
-def test_no_bar_without_a_terminal(capsys, monkeypatch):
-    monkeypatch.setattr(progress, "PATIENCE", -1.0)
+def test_without_a_terminal_quick_work_is_silent_and_long_work_writes_few_lines(capsys, monkeypatch):
     with progress.bar("working") as advance:
         advance(0.5)
     assert capsys.readouterr() == ("", "")
+    instants = iter([0.0, *range(1, 101)])
+    monkeypatch.setattr(progress, "perf_counter", lambda: float(next(instants)))
+    with progress.bar("working") as advance:
+        for share in range(1, 101):
+            advance(share / 100.0)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.splitlines() == [f"working: {k}% after {k} s" for k in (11, 22, 44, 88)]
 
 
 def test_a_bar_on_a_terminal_after_a_while(capsys, monkeypatch):

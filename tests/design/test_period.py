@@ -11,12 +11,13 @@ import umbilical
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.limits import margins, scaled
 from umbilical.analysis.margins import judge
-from umbilical.analysis.nyquist import stability, sweep
+from umbilical.analysis.nyquist import Stability, stability, sweep
 from umbilical.analysis.sampled import loop_response, sampled_loop
-from umbilical.design.grid import judge_grids, on_grid, resolved, with_grid_echo
+from umbilical.design.grid import Difference, GridJudgement, check_count, judge_grid, on_grid, resolved, with_grid_echo
 from umbilical.design.margins import margins as report
 from umbilical.design.matrix import Counted, MatrixCheck, unstable_eigenvalues
 from umbilical.design.period import linear_period
+from umbilical.errors import ScenarioError
 from umbilical.interop.python_control import to_control
 
 LOW = np.array([0.05, 0.2, 0.4, 0.7, 1.3])
@@ -88,7 +89,7 @@ def test_eigenvalues_count_what_nyquist_counts():
     scenario = umbilical.load("ringdown", {"grid.elements": 12})
     loop = sampled_loop(scenario, 50.0)
     period = linear_period(scenario, loop, 100.0)
-    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period)
+    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period, 12)
     limit = margins(echoed).gain_high.size
     for gain, stable in ((0.98 * limit, True), (1.02 * limit, False)):
         assert (unstable_eigenvalues(period.scaled(gain))[0] == 0) is stable
@@ -101,7 +102,7 @@ def test_a_grids_false_echoes_at_the_rov_are_followed(gain):
     scenario = on_grid(umbilical.load("paper"), 450.0, 25)
     exact = judge(scenario, 450.0)
     period = linear_period(scenario, exact.sweep.loop, 450.0)
-    echoed, _ = with_grid_echo(exact.sweep, period)
+    echoed, _ = with_grid_echo(exact.sweep, period, 25)
     assert stability(echoed, scaled(gain)).unstable == unstable_eigenvalues(period.scaled(gain))[0]
 
 
@@ -123,11 +124,48 @@ def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
     assert not replace(found, check=disagreeing).resolved
 
 
+@pytest.mark.parametrize(("length", "damping"), [(100.0, 1.0), (1000.0, 0.4), (3000.0, 10.0)])
+def test_on_a_damped_cable_a_grids_own_reflection_is_no_echo(length, damping):
+    """Over the exact echo, which fades to nothing, it is as large as one likes: once counted as thousands of poles."""
+    scenario = umbilical.load("ringdown", {"cable.damping": damping})
+    exact = judge(scenario, length)
+    grid = on_grid(scenario, length, 12)
+    period = linear_period(grid, exact.sweep.loop, length)
+    echoed, _ = with_grid_echo(exact.sweep, period, 12)
+    assert np.abs(echoed.echo).max() < 1.001
+    assert exact.stability.unstable == stability(echoed).unstable == unstable_eigenvalues(period)[0] == 0
+    assert check_count(scenario, exact, (12,)).agrees
+
+
+def test_the_finest_grid_must_agree_and_the_next_be_near():
+    at = [GridJudgement(n, Stability(0, 0, None), None, Difference("delay", 1.0, 1.0, d), 1.0)
+          for n, d in ((8, 0.5), (16, 0.07), (32, 0.019), (64, 0.03))]  # fmt: skip
+    assert resolved(at[:3])
+    assert not resolved(at[1:])
+    assert not resolved((at[0], at[0], at[2]))
+    assert not resolved(at[1:3])
+
+
+def test_margins_of_a_controller_in_python_say_what_is_supported():
+    class Law:
+        period = 1e-3
+
+    for wrong in (Law(), "long"):
+        with pytest.raises(ScenarioError, match="a controller written in Python has none"):
+            report(umbilical.load("ringdown"), wrong)  # pyright: ignore[reportArgumentType]
+
+
+def test_progress_is_told_after_every_part():
+    shares: list[float] = []
+    report(umbilical.load("ringdown"), [50.0, 100.0], elements=(8, 12), progress=shares.append)
+    assert shares == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0])
+
+
 def test_loops_that_are_unstable_both_ways_are_compared_by_poles_and_growth():
     """A short cable whose waves of 100 rad/s some grids carry: they grow there, too, but in fewer modes."""
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": 20.0})
     exact = judge(scenario, 40.0)
-    grids = judge_grids(scenario, exact, (30, 40))
+    grids = tuple(judge_grid(scenario, exact, n) for n in (30, 40))
     assert not exact.stable
     for grid in grids:
         assert grid.stability.unstable > 0
@@ -142,7 +180,7 @@ def test_what_is_the_cables_and_what_the_grids(beta):
     """At 100 and 400 nodes the loop seems stable; 1600 nodes carry the waves that the ROV feeds, as a cable does."""
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": beta})
     exact = judge(scenario, 400.0)
-    grids = judge_grids(scenario, exact, (25, 100, 400))
+    grids = tuple(judge_grid(scenario, exact, n) for n in (25, 100, 400))
     assert [grid.stability.unstable > 0 for grid in grids] == [False, False, True]
     assert not exact.stable
     assert not resolved(grids)
@@ -156,7 +194,8 @@ def test_what_is_the_cables_and_what_the_grids(beta):
 
 def test_margins_by_matrix_agree_where_the_grid_is_fine_enough():
     scenario = umbilical.load("ringdown")
-    grids = judge_grids(scenario, judge(scenario, 400.0), (16, 64, 128))
+    exact = judge(scenario, 400.0)
+    grids = tuple(judge_grid(scenario, exact, n) for n in (16, 64, 128))
     assert grids[0].difference > 0.02
     assert grids[0].difference == pytest.approx(abs(grids[0].differs.grid / grids[0].differs.exact - 1.0))
     assert grids[-1].difference < 0.02
@@ -181,7 +220,8 @@ def test_gain_margin_of_python_control_is_ours():
     control = pytest.importorskip("control")
     scenario = umbilical.load("ringdown", {"grid.elements": 12})
     loop = sampled_loop(scenario, 50.0)
-    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), linear_period(scenario, loop, 100.0))
+    period = linear_period(scenario, loop, 100.0)
+    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period, 12)
     limit = margins(echoed).gain_high.size
     opened = to_control(scenario, length=100.0)["loop"]
     for gain, stable in ((0.99 * limit, True), (1.01 * limit, False)):

@@ -53,9 +53,13 @@ class Opened(NamedTuple):
         """L."""
         return (self.a2 + echo * self.b2) / (1.0 + echo * self.b)
 
+    def returned(self, factor: np.ndarray) -> np.ndarray:
+        """R (1 - f a2)."""
+        return -(self.b - factor * self.b2)
+
     def reflection(self, factor: np.ndarray) -> np.ndarray:
         """R."""
-        return -(self.b - factor * self.b2) / self.endless(factor)
+        return self.returned(factor) / self.endless(factor)
 
 
 @dataclass(frozen=True)
@@ -103,7 +107,13 @@ class Sweep:
         ends = self.coarse[[max(first - 1, 0), min(last + 1, coarse.size - 1)]]
         part = slice(*np.searchsorted(self.w, ends))
         w, opened = self.w[part], Opened(*(x[part] for x in self.dense))
-        return w, self.echo[part] * opened.reflection(factor(1j * w))
+        change = factor(1j * w)
+        return resolved_ratio(w, self.echo[part] * opened.returned(change), opened.endless(change))
+
+    def loud(self, factor: Factor) -> np.ndarray:
+        """Whether a wave may come back larger than it was near each coarse frequency."""
+        change = factor(1j * self.coarse)
+        return self.loudest * np.abs(self.opened.returned(change)) >= _closest(self.opened.endless(change))
 
     def transfer(self) -> np.ndarray:
         """L at the dense frequencies."""
@@ -213,7 +223,7 @@ def _echo_angle(s: Sweep, factor: Factor) -> float:
 
 def _growing_echoes(s: Sweep, factor: Factor) -> tuple[int, Growth | None]:
     """Round trips that return a wave in phase and larger: how many, less those passed the other way; the fastest."""
-    loud = s.loudest * np.abs(s.opened.reflection(factor(1j * s.coarse))) >= 1.0
+    loud = s.loud(factor)
     if not loud.any():
         return 0, None
     w, trip = s.trip_where(loud, factor)
@@ -224,6 +234,35 @@ def _growing_echoes(s: Sweep, factor: Factor) -> tuple[int, Growth | None]:
     growing = (size > 1.0) & (np.real(trip)[places] > 0.0)
     count = int(np.where(upward, -1, 1)[growing].sum())
     return count, _fastest(w, trip, places[growing], size[growing])
+
+
+def _closest(curve: np.ndarray) -> np.ndarray:
+    """Distance from 0 of a curve's straight pieces on either side of each of its points."""
+    ends, step = curve[:-1], np.diff(curve)
+    square = np.maximum(np.abs(step) ** 2, np.finfo(float).tiny)
+    share = np.clip(-np.real(np.conj(step) * ends) / square, 0.0, 1.0)
+    near = np.abs(ends + share * step)
+    return np.minimum(np.append(near, np.inf), np.append(np.inf, near))
+
+
+def resolved_ratio(w: np.ndarray, wave: np.ndarray, divisor: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """``wave/divisor`` over w, with more points where the divisor passes so close to 0 that it turns in one step.
+
+    There, close to the limit of the loop on a cable without an end, the ratio has a peak that may lie between two
+    points. Between them the divisor is a straight line, the wave turns and grows evenly.
+    """
+    step = 2.0 * np.pi / PER_TURN
+    turn = np.angle(divisor[1:] / divisor[:-1])
+    fast = np.flatnonzero(np.abs(turn) > step)
+    counts = np.ceil(np.abs(turn[fast]) / step).astype(int)
+    place = np.repeat(fast, counts - 1)
+    number = np.arange(place.size) - np.repeat(np.cumsum(counts - 1) - (counts - 1), counts - 1) + 1
+    way = np.exp(-1j * (np.angle(divisor[place]) + turn[place] * number / np.repeat(counts, counts - 1)))
+    along = divisor[place + 1] - divisor[place]
+    share = -np.imag(divisor[place] * way) / np.imag(along * way)
+    more = wave[place] * (wave[place + 1] / wave[place]) ** share / (divisor[place] + share * along)
+    at = w[place] + share * (w[place + 1] - w[place])
+    return np.insert(w, place + 1, at), np.insert(wave / divisor, place + 1, more)
 
 
 def crossings(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from umbilical.design.margins import MarginReport
     from umbilical.design.matrix import Counted, MatrixCheck
 
+GRIDS, FINEST = (32, 64, 128), 256
+"""Elements of the grids that are asked where none are named, and of the last one where those do not agree."""
 SHOWN_MODES = 3
 SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency that grows": (1.0, " rad/s")}
 """Factor and unit in which a number is shown."""
@@ -38,8 +40,11 @@ def margins(
         float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
     ] = None,
     grid: Annotated[
-        str, Option("--grid", metavar="N1,N2,N3", help="Elements of the grids that are asked, too; 0 for none.")
-    ] = "32,64,128",
+        str | None,
+        Option(
+            "--grid", metavar="N1,N2,N3", help="Elements of the grids to ask, 0 for none; 32,64,128, if need be 256."
+        ),
+    ] = None,
     plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
     as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
     force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
@@ -61,9 +66,12 @@ def margins(
         check_target(plot, PICTURES, force=force)
     from umbilical.design.margins import margins as compute
 
-    elements = [round(number) for number in _numbers(grid) or [] if number]
+    elements = [round(number) for number in _numbers(grid) or [] if number] if grid else GRIDS
+    finest = 0 if grid else FINEST
     with bar("margins") as advance:
-        report = compute(chosen, _numbers(lengths), operating_thrust, elements=elements, progress=advance)
+        report = compute(
+            chosen, _numbers(lengths), operating_thrust, elements=elements, finest=finest, progress=advance
+        )
     files = _draw(report, plot, force)
     return conclude(
         conclusion(report), text=lambda: text(report), document=lambda: document(report), files=files, as_json=as_json

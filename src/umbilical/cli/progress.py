@@ -16,30 +16,59 @@ if TYPE_CHECKING:
 
 PATIENCE = 1.0
 """Seconds for which nobody needs a bar."""
+PATIENCE_IN_LOGS = 10.0
+"""Seconds before the first line where there is no terminal; the time to each next line doubles."""
 COMPILING = 30
 """Seconds the first compilation took where this was written: an AMD EPYC, one core busy."""
 
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
-    """A function that takes the share done, 0 to 1, and shows a bar: on a terminal, after a second."""
-    begun = perf_counter()
-    shown = []
-
-    def advance(share: float) -> None:
-        if not shown and sys.stderr.isatty() and perf_counter() - begun > PATIENCE:
-            shown.append(_Bar(what))
-        for one in shown:
-            one.move(share)
-
+    """A function that takes the share done, 0 to 1, and shows it on stderr: a bar on a terminal, lines elsewhere."""
+    shown = _Later(_Bar, PATIENCE) if sys.stderr.isatty() else _Later(_Lines, PATIENCE_IN_LOGS)
     try:
-        yield advance
+        yield lambda share: shown.move(what, share)
     finally:
-        for one in shown:
-            one.close()
+        shown.close()
+
+
+class _Later:
+    """A display that is made when work has taken longer than somebody's patience."""
+
+    def __init__(self, display: type[_Bar] | type[_Lines], patience: float) -> None:
+        self._display, self._patience, self._begun = display, patience, perf_counter()
+        self._made: _Bar | _Lines | None = None
+
+    def move(self, what: str, share: float) -> None:
+        passed = perf_counter() - self._begun
+        if self._made is None and passed > self._patience:
+            self._made = self._display(what)
+        if self._made:
+            self._made.move(share, passed)
+
+    def close(self) -> None:
+        if self._made:
+            self._made.close()
+
+
+class _Lines:
+    """Lines for a log: one at once, and one whenever the time passed has doubled."""
+
+    def __init__(self, what: str) -> None:
+        self._what, self._next = what, 0.0
+
+    def move(self, share: float, passed: float) -> None:
+        if passed >= self._next:
+            self._next = 2.0 * passed
+            tell(f"{self._what}: {share:.0%} after {passed:.0f} s")
+
+    def close(self) -> None:
+        pass
 
 
 class _Bar:
+    """A bar for a terminal."""
+
     def __init__(self, what: str) -> None:
         from rich.console import Console
         from rich.progress import Progress
@@ -48,7 +77,7 @@ class _Bar:
         self._task = self._progress.add_task(what, total=1.0)
         self._progress.start()
 
-    def move(self, share: float) -> None:
+    def move(self, share: float, passed: float) -> None:
         self._progress.update(self._task, completed=share)
 
     def close(self) -> None:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import Judgement, check, judge_loop, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.grid import GridJudgement, check_count, judge_grids, resolved
+from umbilical.design.grid import GridJudgement, check_count, judge_grid, resolved
 from umbilical.design.matrix import MatrixCheck
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.scenario import Scenario
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,7 @@ class MarginReport:
 
     @property
     def resolved(self) -> bool | None:
-        """Whether the two finest grids agree with the exact cable, and the check; None for fewer than three."""
+        """Whether the finest grids agree with the exact cable, and the check; None for fewer than three."""
         if len(self.grids) < 3 or self.check is None:
             return None
         return resolved(self.grids) and self.check.agrees
@@ -51,6 +54,7 @@ def margins(
     operating_thrust: float | None = None,
     *,
     elements: Sequence[int] = (),
+    finest: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> MarginReport:
     """Stability, margins, modes and reflection of the linearised sampled loop, without a grid.
@@ -62,6 +66,7 @@ def margins(
             the ROV, at least the pull of a slope of 0.01.
         elements: numbers of elements on which the engine's own matrices are asked, too; three or more give a
             verdict.
+        finest: while that verdict is open, grids of twice as many elements follow, up to this number.
         progress: called with the share done, 0 to 1.
 
     Raises:
@@ -73,19 +78,49 @@ def margins(
     (True, [400.0])
     """
     check(scenario)
-    chosen = usual_lengths(scenario) if lengths is None else tuple(map(float, lengths))
+    chosen = usual_lengths(scenario) if lengths is None else _as_lengths(scenario, lengths)
     thrust = usual_thrust(scenario) if operating_thrust is None else float(operating_thrust)
     check_request(scenario, chosen, thrust, elements)
+    done = _steps(progress, len(chosen) + len(elements) + bool(elements))
     loop = sampled_loop(scenario, thrust)
-    found = []
-    for number, length in enumerate(chosen, 1):
-        found.append(judge_loop(hanging_cable(scenario, length), loop))
-        if progress:
-            progress(number / (len(chosen) + 2 * len(elements)))
+    found = tuple(done(judge_loop(hanging_cable(scenario, length), loop)) for length in chosen)
     longest = max(found, key=lambda judgement: judgement.length)
-    grids = judge_grids(scenario, longest, elements)
-    checked = check_count(scenario, longest, elements) if elements else None
-    return MarginReport(scenario, thrust, tuple(found), grids, checked)
+    checked = done(check_count(scenario, longest, elements)) if elements else None
+    grids = [done(judge_grid(scenario, longest, number)) for number in elements]
+    while grids and 2 * grids[-1].elements <= finest and not resolved(grids):
+        grids.append(judge_grid(scenario, longest, 2 * grids[-1].elements))
+    return MarginReport(scenario, thrust, found, tuple(grids), checked)
+
+
+def _as_lengths(scenario: Scenario, lengths: Sequence[float]) -> tuple[float, ...]:
+    """Lengths as numbers, m.
+
+    Raises:
+        ScenarioError: they are something else, for example a controller.
+    """
+    try:
+        return tuple(map(float, lengths))
+    except (TypeError, ValueError) as error:
+        problem = Problem(
+            "lengths",
+            f"{lengths!r} ({type(lengths).__name__})",
+            "a list of lengths, m",
+            "margins are those of the scenario's own law, boundary or PD; a controller written in Python has none",
+            "margins(scenario, [300.0, 400.0]); for a controller of your own, simulate(scenario, controller)",
+        )
+        raise ScenarioError([problem], scenario.name) from error
+
+
+def _steps(progress: Callable[[float], None] | None, count: int) -> Callable[[T], T]:
+    """Pass a result on and report that one more of ``count`` is there."""
+    number = iter(range(1, count + 1))
+
+    def done(result: T) -> T:
+        if progress:
+            progress(next(number) / count)
+        return result
+
+    return done
 
 
 def check_request(scenario: Scenario, lengths: Sequence[float], thrust: float, elements: Sequence[int] = ()) -> None:

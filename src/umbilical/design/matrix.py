@@ -5,6 +5,7 @@ The matrix is real, so that gain and whole periods of delay can be put into it, 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -17,7 +18,7 @@ from umbilical.analysis.sampled import ON_THE_CIRCLE
 from umbilical.design.period import LinearPeriod
 
 BESIDE = 0.01
-"""How far inside and outside of a gain limit both are asked, relative to it."""
+"""How far inside and outside of a limit of gain or delay both are asked, relative to it."""
 INTEGRATOR = 1e-6
 """Eigenvalues as close to 1 are integrators."""
 MOST_ELEMENTS = 32
@@ -86,8 +87,8 @@ def _changes(period: LinearPeriod, limits: Margins | None) -> Iterator[tuple[str
             if 0.0 < limit < np.inf:
                 yield f"{gain:.3g} times the thrust", scaled(gain), period.scaled(gain)
     if np.isfinite(limits.delay.size):
-        whole = int(limits.delay.size // period.period)
-        for periods in (whole, whole + 1):
+        limit = limits.delay.size / period.period
+        for periods in (math.floor(limit * (1.0 - BESIDE)), math.ceil(limit * (1.0 + BESIDE))):
             delay = periods * period.period
             yield f"{1e3 * delay:.3g} ms later", later(delay), period.later(periods)
 
