@@ -14,6 +14,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -25,14 +26,15 @@ STAMP = VENV / "installed-from"
 LOCK = ROOT / "requirements.lock"
 
 
+SUPPORTED = ("3.11", "3.12", "3.13")
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 """Small matrices on many threads take ten times longer when the machine is busy."""
 
 
-def call(*command: str | Path, **environment: str) -> bool:
-    """Run a command from the project's folder with its own output; True when it succeeded."""
+def call(*command: str | Path, folder: Path = ROOT, **environment: str) -> bool:
+    """Run a command, from the project's folder unless another is given, with its own output; True when it succeeded."""
     print("+", *(f"{k}={v}" for k, v in environment.items()), *map(_shown, command), flush=True)
-    done = subprocess.run(list(map(str, command)), cwd=ROOT, env={**os.environ, **environment}, check=False)
+    done = subprocess.run(list(map(str, command)), cwd=folder, env={**os.environ, **environment}, check=False)
     return done.returncode == 0
 
 
@@ -108,7 +110,59 @@ def thorough() -> Iterable[bool]:
     yield call(PYTHON, "-m", "pytest", "-m", "bounds", NUMBA_BOUNDSCHECK="1")
 
 
-TASKS: dict[str, Callable[[], Iterable[bool]]] = {"run": run, "test": test, "check": check, "thorough": thorough}
+FIRST_RUN = """
+import pathlib, umbilical
+run = umbilical.simulate(umbilical.load("paper", {"duration": 1.0}))
+umbilical.plot_overview(run).savefig("first.png")
+assert pathlib.Path("first.png").stat().st_size > 10_000 and ".venv" not in umbilical.__file__
+print(run.summary().splitlines()[0])
+"""
+
+
+def package() -> Iterable[bool]:
+    """Build sdist and wheel; install the wheel without extras on each Python that is here; make a first run with it."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        yield call(PYTHON, "-m", "hatchling", "build", "--directory", folder)
+        (wheel,) = folder.glob("*.whl")
+        pins = folder / "pins.txt"
+        pins.write_text("".join(line.split(" \\")[0] + "\n" for line in LOCK.read_text().splitlines() if "==" in line))
+        for version in SUPPORTED:
+            if found := _interpreter(version):
+                yield from _first_run(found, wheel, pins, folder / f"env{version}")
+            else:
+                print(f"package: no Python {version} here, skipped", flush=True)
+
+
+def _interpreter(version: str) -> str | None:
+    """A Python of this version that runs: on the path, where a shim may lead nowhere, or among pyenv's."""
+    pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
+    on_path = shutil.which(f"python{version}")
+    for candidate in [*filter(None, [on_path]), *sorted(map(str, pyenv.glob(f"{version}*/bin/python")))]:
+        if subprocess.run([candidate, "-c", ""], capture_output=True, check=False).returncode == 0:
+            return candidate
+    return None
+
+
+def _first_run(python: str, wheel: Path, pins: Path, environment: Path) -> Iterable[bool]:
+    """Install a wheel into an environment of its own; make the first picture from another folder."""
+    ours = environment / BIN.name / PYTHON.name
+    yield call(python, "-m", "venv", "--without-pip", environment)
+    with_pip = PYTHON if (BIN / "pip").exists() else sys.executable  # see _make_venv
+    quiet = ("--quiet", "--no-input", "--disable-pip-version-check")
+    yield call(with_pip, "-m", "pip", "--python", ours, "install", *quiet, "--constraint", pins, wheel)
+    elsewhere = environment / "elsewhere"
+    elsewhere.mkdir(parents=True)
+    yield call(ours, "-c", FIRST_RUN, folder=elsewhere)
+
+
+TASKS: dict[str, Callable[[], Iterable[bool]]] = {
+    "run": run,
+    "test": test,
+    "check": check,
+    "thorough": thorough,
+    "package": package,
+}
 
 
 def main() -> int:
