@@ -156,13 +156,21 @@ def _first_run(python: str, wheel: Path, pins: Path, environment: Path) -> Itera
     yield call(ours, "-c", FIRST_RUN, folder=elsewhere)
 
 
+def mutants() -> Iterable[bool]:
+    """Whether the tests notice small changes of the source: a sample, on which see docs/mutants.md."""
+    yield call(PYTHON, "tools/mutants.py")
+
+
 TASKS: dict[str, Callable[[], Iterable[bool]]] = {
     "run": run,
     "test": test,
     "check": check,
     "thorough": thorough,
     "package": package,
+    "mutants": mutants,
 }
+CI = tuple(name for name in TASKS if name != "mutants")
+"""All but the one that is for finding gaps in the tests, and has no verdict."""
 
 
 def main() -> int:
@@ -170,7 +178,7 @@ def main() -> int:
     listing = "\n".join(f"  {name:<9} {task.__doc__}" for name, task in TASKS.items())
     parser = argparse.ArgumentParser(
         description=(__doc__ or "").splitlines()[0],
-        epilog=f"tasks:\n{listing}\n  ci        all of them",
+        epilog=f"tasks:\n{listing}\n  ci        {', '.join(CI)}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("tasks", nargs="+", choices=[*TASKS, "ci"], metavar="task")
@@ -178,7 +186,7 @@ def main() -> int:
     if sys.version_info < (3, 11):  # noqa: UP036  (this script is what an older Python is started with)
         raise SystemExit(f"do.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]}")
     set_up()
-    chosen = list(TASKS) if "ci" in names else names
+    chosen = list(CI) if "ci" in names else names
     failed = [name for name in chosen if not all(list(TASKS[name]()))]
     if failed:
         print(f"do.py: failed: {', '.join(failed)}", flush=True)
