@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umbilical.admission import controller, equipment, motion, sampling, statics, steps, timeline
+from umbilical.admission import controller, equipment, inherited, motion, sampling, statics, steps, timeline
 
 CHECKS = (
     timeline.grid_of_time,
@@ -32,6 +32,7 @@ CHECKS = (
     controller.sections_of_the_law,
     controller.ideal_sensors,
     controller.motor_loop,
+    inherited.gains_of_other_motors,
     controller.adaptation,
     controller.adaptation_has_its_error,
     controller.nominal,

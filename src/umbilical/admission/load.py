@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from functools import lru_cache
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from umbilical import files
 from umbilical.admission.examine import admit_data
+from umbilical.admission.presets import preset_names, preset_text
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import extend, read, try_override
@@ -36,34 +35,6 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
     data = _extended(read(_text(origin), origin), origin)
     changed, lost = try_override(data, overrides or {})
     return admit_data(changed, origin, lost)
-
-
-def preset_names() -> tuple[str, ...]:
-    """Names of the scenarios that come with the package.
-
-    >>> "paper" in preset_names()
-    True
-    """
-    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
-
-
-def preset_text(name: str) -> str:
-    """TOML text of a preset, as it is in the package.
-
-    Raises:
-        FileError: there is no such preset.
-
-    >>> preset_text("paper-dead").splitlines()[0]
-    'extends = "paper"'
-    """
-    if name not in preset_names():
-        raise FileError(f"{name}: there is no preset of this name; {nearest(name, preset_names())}")
-    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
-
-
-@lru_cache(maxsize=1)
-def _folder() -> Any:
-    return resources.files("umbilical.scenario") / "presets"
 
 
 def _extended(data: dict[str, Any], origin: str) -> dict[str, Any]:
