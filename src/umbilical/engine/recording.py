@@ -160,7 +160,8 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
         note(tally, TIP_AFTER_FAULT, tip)
     note(tally, COMMAND, decision.outer[0].thrust_command)
     note(tally, THRUST, state.now[DELIVERED])
-    note(tally, GAP, decision.outer[0].thrust_command - state.now[DELIVERED])
+    # Python floats: infinite minus infinite is not worth a warning of numpy.
+    note(tally, GAP, float(decision.outer[0].thrust_command) - float(state.now[DELIVERED]))
     finite = np.isfinite(tip) and np.isfinite(state.ends[TIP_VELOCITY]) and np.isfinite(state.now[DELIVERED])
     for k in range(state.motors.shape[1]):
         note(tally, MOTOR_VOLTAGE, decision.motors[k].motor_voltage)
