@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
-import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Annotated
 
 import typer
@@ -28,7 +28,7 @@ from umbilical.cli import (
     verifying,
 )
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
-from umbilical.errors import UmbilicalError
+from umbilical.errors import OutputError, UmbilicalError
 
 # typer brings its own copy of click and exports only this child of click's UsageError.
 _UsageError: type[Exception] = typer.BadParameter.__mro__[1]
@@ -95,28 +95,18 @@ def umbilical(
     """
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command line.
-
-    Args:
-        arguments: what stands behind ``umbilical``; those of this process if left out.
-
-    Returns:
-        The exit code, see :data:`umbilical.cli.speech.EXIT_CODES`.
-    """
-    given = list(sys.argv[1:] if arguments is None else arguments)
+def run_command(given: list[str], signals: Sequence[int] = ()) -> int:
+    """Run the words of one command line; whatever error comes while ``signals`` holds one is an interruption."""
     # Read when numpy is first imported: our matrices are small, and threads cost them more than they bring.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    debug = "--debug" in given
     try:
         return _invoke([word for word in given if word != "--debug"])
-    except BrokenPipeError:  # the reader has gone; nothing must be written to it at the end, either
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except BrokenPipeError:  # the reader has gone
         return 4
     except (Exception, KeyboardInterrupt) as error:
-        if debug:
-            traceback.print_exception(error)
-        return _explain(error, as_json="--json" in given)
+        if "--debug" in given:
+            tell("".join(traceback.format_exception(error)))
+        return _explain(KeyboardInterrupt() if signals else error, as_json="--json" in given)
 
 
 def _invoke(words: list[str]) -> int:
@@ -132,9 +122,10 @@ def _invoke(words: list[str]) -> int:
 def _explain(error: BaseException, *, as_json: bool) -> int:
     """One text on stderr, one object on stdout if that was wanted; returns the exit code."""
     code, text = _verdict(error)
-    if as_json:
-        say_json(refusal(error, text, code))
     tell(text)
+    if as_json:
+        with suppress(OutputError, BrokenPipeError):  # which is perhaps the very error
+            say_json(refusal(error, text, code))
     return code
 
 

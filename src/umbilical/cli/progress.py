@@ -9,6 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from umbilical.cli.speech import tell
+from umbilical.cli.terminal import printable
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -71,10 +72,11 @@ class _Bar:
 
     def __init__(self, what: str) -> None:
         from rich.console import Console
+        from rich.markup import escape
         from rich.progress import Progress
 
         self._progress = Progress(console=Console(stderr=True), transient=True)
-        self._task = self._progress.add_task(what, total=1.0)
+        self._task = self._progress.add_task(escape(printable(what)), total=1.0)
         self._progress.start()
 
     def move(self, share: float, passed: float) -> None:

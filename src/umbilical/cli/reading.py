@@ -95,11 +95,25 @@ def _show_scenario(source: str, as_json: bool) -> None:
     if as_json:
         say_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, "notices": notices})
         return
-    entries = [(e.key, e.value, e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)]
+    entries = [
+        (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
+    ]
     parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, table(entries)]
     if scenario.assumed:
         parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
     say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))
+
+
+_LONGEST = 48
+"""Characters of the longest value in a table of a scenario; --json has all of it."""
+
+
+def _shortened(value: str) -> str:
+    """A value as one cell: of a long one its beginning and how long it is."""
+    if len(value) <= _LONGEST:
+        return value
+    entries = f" ({value.count(',') + 1} entries)" if value.startswith("[") else f" ({len(value)} characters)"
+    return f"{value[: _LONGEST - 20]}...{entries}"
 
 
 def compare(

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
+from sys import maxsize
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
+from umbilical.cli.terminal import print_result as say
+from umbilical.cli.terminal import report as tell  # noqa: F401 (for the commands)
+from umbilical.cli.terminal import width
 from umbilical.errors import ScenarioError
 
 if TYPE_CHECKING:
@@ -28,16 +32,8 @@ EXIT_CODES = {
 }
 
 
-def say(text: str) -> None:
-    """What was asked for, to stdout."""
-    sys.stdout.write(text.rstrip("\n") + "\n")
-    sys.stdout.flush()
-
-
-def tell(text: str) -> None:
-    """News and errors, to stderr."""
-    sys.stderr.write(text.rstrip("\n") + "\n")
-    sys.stderr.flush()
+_NARROWEST = 20
+"""Characters of the narrowest column that texts are wrapped in."""
 
 
 def say_json(document: Mapping[str, Any]) -> None:
@@ -98,15 +94,21 @@ def shown_unit(unit: str) -> str:
 
 
 def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
-    """Rows of cells as aligned columns; those numbered in ``right`` are flush right.
+    """Rows of cells as aligned columns; those numbered in ``right`` are flush right. Of a line that is too long for the
+    terminal (or for ``COLUMNS``) the last cell is wrapped.
 
     >>> print(table([("a", "1"), ("bb", "10")], right=[1]))
       a    1
       bb  10
     """
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else []
+    last = len(widths) - 1
+    indent = sum(widths[:-1]) + 2 * len(widths)
+    room = max((width() or maxsize) - indent, _NARROWEST)
     lines = []
     for row in rows:
         cells = [f"{c:>{w}}" if k in right else f"{c:<{w}}" for k, (c, w) in enumerate(zip(row, widths, strict=True))]
+        if cells and last not in right:
+            cells[-1] = f"\n{' ' * indent}".join(wrap(row[-1], room)) if len(row[-1]) > room else row[-1]
         lines.append(("  " + "  ".join(cells)).rstrip())
     return "\n".join(lines)
