@@ -7,12 +7,11 @@ silently run the old code. Here the cache lives in a folder named by a hash of e
 from __future__ import annotations
 
 import hashlib
-import os
+import logging
 import platform
-import sys
-import tempfile
 from collections.abc import Callable
 from functools import cache
+from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
@@ -21,22 +20,14 @@ import numba
 import numpy
 from numba.core import config as numba_config
 
+from umbilical.kernel_cache import folder_for, is_whole, seal
+
 config: Any = numba_config  # its settings are made at run time, unknown to type checkers
 
 _FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
 _BESIDES = ("compile.py", "frames.py")
 """Files outside these floors that the compiled code depends on."""
 _PACKAGE = Path(__file__).parent
-
-
-def _user_cache() -> Path:
-    if override := os.environ.get("UMBILICAL_CACHE"):
-        return Path(override)
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA", tempfile.gettempdir())) / "umbilical" / "cache"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "umbilical"
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "umbilical"
 
 
 def _fingerprint() -> str:
@@ -53,21 +44,26 @@ def _fingerprint() -> str:
 
 @cache
 def cache_folder() -> Path:
-    """Folder of the compiled kernels of exactly this source; falls back to a temporary one."""
-    folder = _user_cache() / _fingerprint()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        probe = folder / f".probe-{os.getpid()}"
-        probe.touch()
-        probe.unlink()
-    except OSError:
-        folder = Path(tempfile.mkdtemp(prefix="umbilical-"))
-    return folder
+    """Folder of the compiled kernels of exactly this source, see :mod:`umbilical.kernel_cache`."""
+    return folder_for(_fingerprint())
 
 
 def is_warm() -> bool:
     """Whether the main loop has been compiled before and will load from disk."""
-    return any(cache_folder().rglob("*run_steps*.nbc"))
+    return any(is_whole(path) for path in cache_folder().rglob("*run_steps*.nbc"))
+
+
+@cache
+def announce() -> None:
+    """Say once, before a kernel is first called, that kernels are about to be compiled.
+
+    The message is a warning of the logger ``umbilical``, which Python writes to stderr;
+    ``logging.getLogger("umbilical").setLevel("ERROR")`` switches it off.
+    """
+    if not config.DISABLE_JIT and not is_warm() and parent_process() is None:
+        logging.getLogger("umbilical").warning(
+            "compiling the kernels once, which takes half a minute to three minutes; later runs load them from disk"
+        )
 
 
 def _compiled(function: Callable[..., Any], **special: Any) -> Any:
@@ -75,7 +71,7 @@ def _compiled(function: Callable[..., Any], **special: Any) -> Any:
     before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
     try:
         common = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": False}
-        return njit(**common, **special)(function)
+        return seal(njit(**common, **special)(function))
     finally:
         config.CACHE_DIR = before
 

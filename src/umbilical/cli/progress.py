@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from umbilical.cli.speech import tell
 from umbilical.cli.terminal import printable
+from umbilical.cli.terminal import report as tell
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -19,14 +19,13 @@ PATIENCE = 1.0
 """Seconds for which nobody needs a bar."""
 PATIENCE_IN_LOGS = 10.0
 """Seconds before the first line where there is no terminal; the time to each next line doubles."""
-COMPILING = 30
-"""Seconds the first compilation took where this was written: an AMD EPYC, one core busy."""
 
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
     """A function that takes the share done, 0 to 1, and shows it on stderr: a bar on a terminal, lines elsewhere."""
-    shown = _Later(_Bar, PATIENCE) if sys.stderr.isatty() else _Later(_Lines, PATIENCE_IN_LOGS)
+    terminal = sys.stderr is not None and sys.stderr.isatty()
+    shown = _Later(_Bar, PATIENCE) if terminal else _Later(_Lines, PATIENCE_IN_LOGS)
     try:
         yield lambda share: shown.move(what, share)
     finally:
@@ -88,10 +87,9 @@ class _Bar:
 
 def announce_compilation() -> None:
     """Say so if the kernels are about to be compiled."""
-    from umbilical.compile import is_warm
+    from umbilical.compile import announce
 
-    if not is_warm():
-        tell(f"compiling the kernels once, about {COMPILING} s; later runs load them from disk")
+    announce()
 
 
 def simulate_visibly(scenario: Scenario) -> Run:

@@ -11,6 +11,7 @@ import numpy as np
 from umbilical.admission import admit
 from umbilical.admission.steps import chosen_step
 from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
+from umbilical.compile import announce
 from umbilical.control import cascade
 from umbilical.control.contract import Controller, make_decision, make_readings
 from umbilical.engine import loop
@@ -167,6 +168,7 @@ def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: 
 
     With ``stored`` false the record holds the first and the last sample only, and no power is booked.
     """
+    announce()
     period, every = scenario.control.period, 1
     if controller is not None:
         period, every = _periods(scenario, controller)
