@@ -17,6 +17,7 @@ class Quantity(NamedTuple):
         meaning: one short line, also the ``long_name`` in result files.
         source: equation, table or section of the paper; "" for what is ours.
         clash: the other meaning the paper gives the same symbol, if any.
+        over: what a channel depends on besides time: "sigma", "motor" or "kappa_index"; "" for time alone.
     """
 
     unit: str
@@ -24,6 +25,7 @@ class Quantity(NamedTuple):
     meaning: str
     source: str = ""
     clash: str = ""
+    over: str = ""
 
 
 # fmt: off
@@ -118,56 +120,85 @@ PARAMETERS: dict[str, Quantity] = {
     "output_interval":     Quantity("s", "", "time between stored samples"),
 }
 
+# In the order of result files.
 CHANNELS: dict[str, Quantity] = {
-    # along the cable
-    "displacement":            Quantity("m", "y", "transverse displacement of the cable", "(6)"),
-    "slope":                   Quantity("1", "y_x", "slope of the cable", "(6)"),
-    "velocity":                Quantity("m/s", r"\mathrm{D}y/\mathrm{D}t", "material velocity of the cable", "(6)"),
     # winch, boundaries
     "length":                  Quantity("m", "l", "cable length paid out", "Table 1"),
     "payout_speed":            Quantity("m/s", "v", "winch speed, positive paying out", "Table 1"),
     "payout_acceleration":     Quantity("m/s2", "a", "winch acceleration", "Table 1"),
     "vessel_displacement":     Quantity("m", "e", "vessel displacement y(0,t)", "(7)"),
+    "vessel_slope":            Quantity("1", r"y_x(0,t)", "cable slope at the vessel"),
     "tip_displacement":        Quantity("m", "x_1", "ROV displacement y(l,t)", "(17)"),
     "tip_velocity":            Quantity("m/s", "x_2", "ROV velocity Dy/Dt(l,t)", "(17)"),
     "tip_slope":               Quantity("1", "z_1", "cable slope at the ROV y_x(l,t)", "(19)", "z_1, z_2 are also the motor states of (46), (47)"),
     "tip_slope_rate":          Quantity("1/s", "z_2", "material rate of the slope at the ROV", "(19)", "z_1, z_2 are also the motor states of (46), (47)"),
-    "vessel_slope":            Quantity("1", r"y_x(0,t)", "cable slope at the vessel"),
-    # estimates
+    # outer law and its estimates
+    "thrust_command":          Quantity("N", r"\alpha_c", "commanded thrust", "(22)"),
+    "boundary_error":          Quantity("m/s", "u_a", "boundary variable x2 + beta z1, as estimated", "(22)"),
     "tip_velocity_estimate":   Quantity("m/s", r"\hat x_2", "observer's ROV velocity", "(17)"),
     "tip_slope_rate_estimate": Quantity("1/s", r"\hat z_2", "observer's slope rate", "(19)"),
-    "boundary_error":          Quantity("m/s", "u_a", "boundary variable x2 + beta z1, as estimated", "(22)"),
     "disturbance_estimate":    Quantity("N", r"\hat D", "estimated disturbance of the ROV", "(21)"),
-    # forces
-    "disturbance":             Quantity("N", "D", "what the controller sees as disturbance: d + thrust - commanded thrust", "(8)"),
+    # forces on the ROV
     "payload_force":           Quantity("N", "d", "external force on the ROV", "(8)"),
     "thrust":                  Quantity("N", r"\alpha", "delivered thrust", "(8)"),
-    "thrust_command":          Quantity("N", r"\alpha_c", "commanded thrust", "(22)"),
-    # motors
-    "motor_speed":             Quantity("rad/s", r"\omega", "motor speed", "(15)"),
-    "motor_current":           Quantity("A", "i", "motor current", "(15)"),
-    "motor_voltage":           Quantity("V", "U", "commanded motor voltage", "(15)"),
-    "demand":                  Quantity("rad2/s2", "U_i", "demanded signed square of the motor speed", "(23)", "U is also the voltage"),
-    "speed_reference":         Quantity("rad/s", r"\omega_d", "filtered speed reference", "(48)"),
-    "motor_disturbance":       Quantity("rad/s3", r"d_{\Delta 2}", "scaled voltage disturbance f23 d2", "(57)"),
-    "motor_disturbance_estimate": Quantity("rad/s3", r"\hat d_{\Delta 2}", "estimated scaled voltage disturbance", "(61)"),
-    "effectiveness":           Quantity("1", r"\rho_i", "effectiveness of the motor's thrust", "(16)"),
-    "kappa":                   Quantity("", r"\kappa", "adaptive allocation: kappa_0 in rad2/(N s2), kappa_1 ... kappa_n in rad2/s2", "(23)"),
-    # energy and the work done on it since the start
-    "energy":                  Quantity("J", "E", "energy of cable and ROV"),
+    "disturbance":             Quantity("N", "D", "what the controller sees as disturbance: d + thrust - commanded thrust", "(8)"),
+    # work done on the energy since the start
     "work_thrust":             Quantity("J", "", "work of the thrust"),
     "work_payload_force":      Quantity("J", "", "work of the external force on the ROV"),
     "work_payload_damping":    Quantity("J", "", "work of the ROV's damping"),
+    "work_vessel":             Quantity("J", "", "energy that came through the vessel end (payout and vessel motion)"),
     "work_cable_damping":      Quantity("J", "", "work of the cable's damping"),
     "work_cable_load":         Quantity("J", "", "work of the load along the cable"),
-    "work_vessel":             Quantity("J", "", "energy that came through the vessel end (payout and vessel motion)"),
     "work_tension":            Quantity("J", "", "work of the changing tension (winch jerk)"),
     "work_grid":               Quantity("J", "", "taken by the grid from waves it cannot carry (upwind flux)"),
+    # motors
+    "motor_speed":             Quantity("rad/s", r"\omega", "motor speed", "(15)", over="motor"),
+    "motor_current":           Quantity("A", "i", "motor current", "(15)", over="motor"),
+    "motor_voltage":           Quantity("V", "U", "commanded motor voltage", "(15)", over="motor"),
+    "demand":                  Quantity("rad2/s2", "U_i", "demanded signed square of the motor speed", "(23)", "U is also the voltage", over="motor"),
+    "speed_reference":         Quantity("rad/s", r"\omega_d", "filtered speed reference", "(48)", over="motor"),
+    "motor_disturbance":       Quantity("rad/s3", r"d_{\Delta 2}", "scaled voltage disturbance f23 d2", "(57)", over="motor"),
+    "motor_disturbance_estimate": Quantity("rad/s3", r"\hat d_{\Delta 2}", "estimated scaled voltage disturbance", "(61)", over="motor"),
+    "effectiveness":           Quantity("1", r"\rho_i", "effectiveness of the motor's thrust", "(16)", over="motor"),
+    "kappa":                   Quantity("", r"\kappa", "adaptive allocation: kappa_0 in rad2/(N s2), kappa_1 ... kappa_n in rad2/s2", "(23)", over="kappa_index"),
+    # along the cable
+    "displacement":            Quantity("m", "y", "transverse displacement of the cable", "(6)", over="sigma"),
+    "slope":                   Quantity("1", "y_x", "slope of the cable", "(6)", over="sigma"),
+    "velocity":                Quantity("m/s", r"\mathrm{D}y/\mathrm{D}t", "material velocity of the cable", "(6)", over="sigma"),
+    # energy
+    "energy":                  Quantity("J", "E", "energy of cable and ROV"),
     "energy_residual":         Quantity("J", "", "energy minus its start and all work: what the discretisation leaves open"),
 }
 
 # What plant, sensors and controller remember or get from outside, beside what a run publishes.
 STATES: dict[str, Quantity] = {
+    # from outside
+    "net_gravity":             Quantity("m/s2", "g - a", "gravity less the winch acceleration"),
+    "relative_jerk":           Quantity("1/s", "a'/(g - a)", "winch jerk over gravity less its acceleration"),
+    "vessel_velocity":         Quantity("m/s", "e'", "vessel velocity"),
+    "torque_disturbance":      Quantity("N m", "d_1", "torque disturbance of a motor", "(15)"),
+    "voltage_disturbance":     Quantity("V", "d_2", "voltage disturbance of a motor", "(15)"),
+    "stuck_thrust":            Quantity("rad2/s2", "u_k", "value at which a motor's thrust demand is stuck", "(16)"),
+    "drive_effectiveness":     Quantity("1", "", "share of its voltage that reaches a motor"),
+    "stuck_voltage":           Quantity("V", "", "value at which a motor's voltage is stuck"),
+    # step of the plant
+    "tip_rates":               Quantity("m/s2", "", "rates of the ROV velocity at the last three instants, without thrust and external force"),
+    "known_rates":             Quantity("1", "", "rates known before the present one"),
+    "newest_rate":             Quantity("1", "", "which of the last three rates is the newest"),
+    "rate_weights":            Quantity("s", "", "weights of the newest, the last and the one before in the present step"),
+    "last_step":               Quantity("s", "", "length of the last step"),
+    "last_relative_jerk":      Quantity("1/s", "", "relative jerk of the winch at the end of the last step"),
+    "power_payload_damping":   Quantity("W", "", "power of the ROV's damping"),
+    "power_vessel":            Quantity("W", "", "power through the vessel end"),
+    # sensors
+    "latency_samples":         Quantity("1", "", "age of a reading in control periods"),
+    # record
+    "samples":                 Quantity("1", "", "control samples so far"),
+    "samples_at_limit":        Quantity("1", "", "control samples of a motor at its voltage limit"),
+    "element":                 Quantity("1", "", "an element of the cable, counted from the vessel"),
+    "slope_weights":           Quantity("1", "", "weights of an element's slopes in the displacement gained in it"),
+    "peak":                    Quantity("", "", "largest size so far, in the unit of what is measured"),
+    "squares":                 Quantity("", "", "sum of squares so far, in the squared unit of what is measured"),
     # constants of a motor written in z1 = w, z2 = (K_t/J) i
     "f11":                     Quantity("1/s", "f_{11}", "-B/J", "(44)"),
     "f12":                     Quantity("1/rad", "f_{12}", "-K_Q/J", "(44)"),

@@ -44,18 +44,7 @@ CONVENTION = (
     "paying out is positive; SI units, angles in radians"
 )
 
-_ALONG_CABLE = ("displacement", "slope", "velocity")
-_PER_MOTOR = (
-    "motor_speed",
-    "motor_current",
-    "motor_voltage",
-    "demand",
-    "speed_reference",
-    "motor_disturbance",
-    "motor_disturbance_estimate",
-    "effectiveness",
-)
-SECOND_DIMENSION = dict.fromkeys(_ALONG_CABLE, "sigma") | dict.fromkeys(_PER_MOTOR, "motor") | {"kappa": "kappa_index"}
+SECOND_DIMENSION = {name: q.over for name, q in CHANNELS.items() if q.over}
 """What a channel depends on besides time; a channel not named here depends on time alone."""
 
 _METRIC = "metric_"

@@ -14,7 +14,7 @@ import pytest
 import umbilical
 from umbilical.admission.examine import admit_data
 from umbilical.admission.load import preset_text
-from umbilical.quantities import CHANNELS, METRICS, PARAMETERS
+from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, STATES
 from umbilical.scenario.document import extend
 from umbilical.studies.load import load_study
 
@@ -111,7 +111,9 @@ def test_toml_examples_are_scenarios(page: str, text: str, tmp_path: Path) -> No
     admit_data(extend(base, data), page)
 
 
-@pytest.mark.parametrize("table", [PARAMETERS, CHANNELS, METRICS], ids=["parameters", "channels", "metrics"])
+@pytest.mark.parametrize(
+    "table", [PARAMETERS, CHANNELS, STATES, METRICS], ids=["parameters", "channels", "states", "metrics"]
+)
 def test_every_word_means_one_thing(table: dict[str, umbilical.quantities.Quantity]) -> None:
     assert [m for m, count in Counter(q.meaning for q in table.values()).items() if count > 1] == []
 

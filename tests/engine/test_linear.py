@@ -14,7 +14,7 @@ from umbilical.engine.sensing import read_truth
 from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.frames import numbers
-from umbilical.plant.cable import PRESENT, TIP_VELOCITY
+from umbilical.plant.cable import PRESENT
 from umbilical.plant.exogenous import Outside, Steps
 
 pytestmark = pytest.mark.nojit
@@ -42,7 +42,7 @@ def test_its_powers_are_a_run() -> None:
 
 
 def state_of(world: World) -> np.ndarray:
-    return np.append(world.state.blocks[PRESENT].ravel(), world.state.ends[TIP_VELOCITY])
+    return np.append(world.state.blocks[PRESENT].ravel(), world.state.now[0].ends.tip_velocity)
 
 
 def test_samples_are_what_the_sensors_read() -> None:
@@ -51,7 +51,7 @@ def test_samples_are_what_the_sensors_read() -> None:
         sensors__ideal_velocity=True,
     )  # fmt: skip
     world = set_up(scenario).world
-    world.state.ends[TIP_VELOCITY] = 0.3
+    world.state.now[0].ends.tip_velocity = 0.3
     inputs = Outside(scenario).sample(Steps(np.zeros(1), np.full(1, 1e-3), np.zeros(0)))
     enter_step(world.plant, world.state, inputs, 0)
     read_truth(world.state, world.readings)

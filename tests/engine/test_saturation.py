@@ -100,7 +100,7 @@ def test_capability_is_the_steady_thrust_at_the_limits() -> None:
     for k, motor in enumerate(scenario.motors):
         speed = np.sqrt(thrust_capability(scenario.replace({"motors": [motor]})) / abs(motor.thrust_coefficient))
         current = (8.0 - motor.back_emf_constant * speed) / motor.resistance
-        assert shaft_acceleration(motors, k, speed, current, 0.0) == pytest.approx(0.0, abs=1e-9)
+        assert shaft_acceleration(motors[k], speed, current, 0.0) == pytest.approx(0.0, abs=1e-9)
         total += abs(motor.thrust_coefficient) * speed**2
     assert thrust_capability(scenario) == pytest.approx(total)
     assert thrust_capability(umbilical.load("paper")) == np.inf

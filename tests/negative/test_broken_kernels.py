@@ -39,8 +39,8 @@ EDITS = {
     ),
     "the work of the thrust": Edit(
         "engine/stepping.py",
-        "work[THRUST] += mean[0] * moved",
-        "work[THRUST] -= mean[0] * moved",
+        "work_thrust += now.average.thrust * moved",
+        "work_thrust -= now.average.thrust * moved",
         ("power balance, paying out, controlled", "power balance, hauling in, controlled"),
     ),
     "the ROV's part in the rate of the slope": Edit(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scenario import keys_by_meaning
 from writing import code, page, table
 
-from umbilical.quantities import CERTIFICATE, CHANNELS, METRICS, PARAMETERS, Quantity
+from umbilical.quantities import CERTIFICATE, CHANNELS, METRICS, PARAMETERS, STATES, Quantity
 from umbilical.run import SECOND_DIMENSION
 
 
@@ -29,6 +29,9 @@ def notation() -> str:
         "## Channels: what a run holds",
         f"Every channel is over `time`; {dimensions()}",
         table(head, (words(name, q) for name, q in channels)),
+        "## States: what plant, sensors and controller hold",
+        "Fields of the records that the loop works on (`src/umbilical/frames.py`), beside channels and parameters.",
+        table(head, (words(f"`{name}`", q) for name, q in STATES.items())),
         "## Metrics: single numbers of a run",
         "Peaks and root mean squares are taken over every control sample, not over the stored ones.",
         table(("name", "unit", "meaning"), ((name, q.unit, q.meaning) for name, q in metrics)),

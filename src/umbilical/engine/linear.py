@@ -20,8 +20,7 @@ from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.frames import numbers
 from umbilical.plant import winch
-from umbilical.plant.cable import PRESENT, RATES, TIP_RATES
-from umbilical.plant.cable import TIP_VELOCITY as VELOCITY_OF_PAYLOAD
+from umbilical.plant.cable import PRESENT, RATES
 from umbilical.plant.elements import DEGREE, WEIGHTS
 from umbilical.plant.exogenous import Outside, Steps
 from umbilical.plant.multistep import EXPLICIT
@@ -151,11 +150,11 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
 def _look(world: World, columns: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
     """Rates and samples at the sum of some unit vectors of the state."""
     state = world.state
-    block, ends = state.blocks[PRESENT], state.ends
+    block, ends = state.blocks[PRESENT], state.now[0].ends
     unit = np.zeros(size)
     unit[columns] = 1.0
-    block.flat[:], ends[VELOCITY_OF_PAYLOAD] = unit[:-1], unit[-1]
+    block.flat[:], ends.tip_velocity = unit[:-1], unit[-1]
     find_rates(world.plant, state)
     read_truth(state, world.readings)
-    rate = np.append(state.blocks[RATES].ravel(), ends[TIP_RATES])
+    rate = np.append(state.blocks[RATES].ravel(), ends.tip_rates[0])
     return rate, np.array(numbers(world.readings.tip[0]))

@@ -17,7 +17,7 @@ from umbilical.control.cascade import CascadeSettings, CascadeState
 from umbilical.control.contract import Command, Controller, Decision, Readings, to_measurement
 from umbilical.engine.recording import Log, Tally, measure, store
 from umbilical.engine.sensing import Sensors, SensorState, sense
-from umbilical.engine.stepping import DELIVERED, Plant, PlantState, advance, enter_step
+from umbilical.engine.stepping import Plant, PlantState, advance, enter_step
 from umbilical.errors import ControllerError
 from umbilical.plant.exogenous import Inputs
 
@@ -56,7 +56,7 @@ class Record(NamedTuple):
 def actuate(world: World) -> None:
     """An ideal thruster delivers the new command at once; motors take their time."""
     if world.plant.ideal:
-        world.state.now[DELIVERED] = world.decision.outer[0].thrust_command
+        world.state.now[0].thrust = world.decision.outer[0].thrust_command
 
 
 @glue

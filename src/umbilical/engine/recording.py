@@ -2,107 +2,161 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import Decision
+from umbilical.control.contract import Decision, MotorDecision, OuterDecision
 from umbilical.engine.sensing import true_slope_rate
-from umbilical.engine.stepping import DELIVERED, SINCE_START, PlantState
-from umbilical.plant.cable import PRESENT, TIP_DISPLACEMENT, TIP_SLOPE, TIP_VELOCITY, VESSEL_SLOPE
-from umbilical.plant.exogenous import ACCELERATION, EFFECTIVENESS, FORCE, LENGTH, SPEED, VESSEL
-from umbilical.plant.exogenous import VOLTAGE as VOLTAGE_DISTURBANCE
+from umbilical.engine.stepping import PlantState
+from umbilical.frames import Frame, integer, part, real, vector
+from umbilical.plant.cable import PRESENT, Ends
+from umbilical.plant.exogenous import Exogenous
 from umbilical.plant.layout import integrate, probe, to_nodal
-from umbilical.plant.motors import CURRENT
-from umbilical.plant.motors import SPEED as ROTOR_SPEED
-from umbilical.plant.power import ALONG_TERMS, END_TERMS
+from umbilical.plant.motors import MotorState
+from umbilical.plant.power import EndWorks
+from umbilical.quantities import CHANNELS
+from umbilical.relations.formulas import motor_constants
+from umbilical.scenario.hardware import Motor
 
-SCALARS = (
-    "length", "payout_speed", "payout_acceleration", "vessel_displacement", "vessel_slope",
-    "tip_displacement", "tip_velocity", "tip_slope", "tip_slope_rate",
-    "thrust_command", "boundary_error", "tip_velocity_estimate", "tip_slope_rate_estimate", "disturbance_estimate",
-    "payload_force", "thrust", "disturbance",
-)  # fmt: skip
-WORKS = (
-    "work_thrust", "work_payload_force", "work_payload_damping", "work_vessel",
-    "work_cable_damping", "work_cable_load", "work_tension", "work_grid",
-)  # fmt: skip
-PER_MOTOR = (
-    "motor_speed", "motor_current", "motor_voltage", "demand", "speed_reference", "motor_disturbance",
-    "motor_disturbance_estimate", "effectiveness",
-)  # fmt: skip
-
-# Columns of Tally.measures, and its rows.
-QUARTER, MID, THREE_QUARTER, TIP, TIP_AFTER_FAULT = range(5)
-COMMAND, THRUST, MOTOR_VOLTAGE, MOTOR_SPEED, MOTOR_CURRENT, GAP = range(5, 11)
-PEAK, SQUARES = range(2)
-LIMIT, AT_LIMIT = range(2)  # rows of Tally.drives
+WORKS = tuple(name for name in CHANNELS if name.startswith("work_"))
 STEEPEST = 1.0
 """Beyond this slope the model of small angles has ended, and the run with it."""
 
 
+class Derived(Frame):
+    """What the record works out beside what plant and controller hold."""
+
+    tip_slope_rate = real()
+    thrust = real()
+    disturbance = real()
+    work_cable_damping = real()
+    work_cable_load = real()
+    work_tension = real()
+    work_grid = real()
+
+
+class MotorDerived(Frame):
+    """Likewise of one motor."""
+
+    motor_disturbance = real()
+
+
 class Log(NamedTuple):
-    """Stored samples; first dimension: the sample.
+    """Stored samples: records as they were. The channels of a run are those of their fields that ``CHANNELS`` names.
 
     Attributes:
-        scalars: SCALARS, then WORKS.
-        motors: PER_MOTOR, shape (samples, 8, motors).
+        outside, ends, works, outer, derived: shape (samples,).
+        motors, decisions, motors_derived: shape (samples, motors).
         kappa: shape (samples, motors + 1).
         blocks: slopes and velocities at the nodes, shape (samples, 5, 2 n).
     """
 
-    scalars: np.ndarray
-    motors: np.ndarray
+    outside: Exogenous
+    ends: Ends
+    works: EndWorks
+    outer: OuterDecision
+    derived: Derived
+    motors: MotorState
+    decisions: MotorDecision
+    motors_derived: MotorDerived
     kappa: np.ndarray
     blocks: np.ndarray
+
+
+class Probe(Frame):
+    """Where the displacement is read: an element, and weights of its slopes in the displacement gained in it."""
+
+    element = integer()
+    slope_weights = vector(5)
+
+
+class Measure(Frame):
+    """Largest size and sum of squares of a quantity so far."""
+
+    peak = real()
+    squares = real()
+
+
+class Measures(Frame):
+    """What is measured at every control sample; y(l/4), y(l/2) and y(3l/4) first, voltages of all motors together."""
+
+    samples = integer()
+    quarter = part(Measure)
+    mid = part(Measure)
+    three_quarter = part(Measure)
+    tip = part(Measure)
+    tip_after_fault = part(Measure)
+    command = part(Measure)
+    thrust = part(Measure)
+    gap = part(Measure)
+    voltage = part(Measure)
+    speed = part(Measure)
+    current = part(Measure)
+
+
+class MotorTally(Frame):
+    """Likewise of one motor, beside its constants; f23 turns d2 into the disturbance its observer estimates."""
+
+    f23 = real()
+    voltage_limit = real()
+    samples_at_limit = integer()
 
 
 class Tally(NamedTuple):
     """Running measures over every control sample.
 
     Attributes:
-        probes: where y(l/4), y(l/2), y(3l/4) are read: element, and weights of its slopes in the displacement
-            gained in it, shape (3, 6).
-        measures: largest size and sum of squares of each measure, shape (2, 11).
+        probes: at l/4, l/2 and 3l/4.
+        measures: one record.
+        motors: one record per motor.
         slopes: largest |y_x| so far in each element, shape (n,).
-        count: control samples so far, shape (1,).
-        scales: f23 of each motor, which turns d2 into the disturbance its observer estimates.
-        drives: voltage limit of each motor, V, and its control samples at it, shape (2, motors).
     """
 
-    probes: np.ndarray
-    measures: np.ndarray
+    probes: Probe
+    measures: Measures
+    motors: MotorTally
     slopes: np.ndarray
-    count: np.ndarray
-    scales: np.ndarray
-    drives: np.ndarray
 
 
 def make_log(samples: int, motors: int, elements: int) -> Log:
     """Room for all samples of a run."""
     return Log(
-        np.zeros((samples, len(SCALARS) + len(WORKS))),
-        np.zeros((samples, len(PER_MOTOR), motors)),
+        Exogenous.many(samples),
+        Ends.many(samples),
+        EndWorks.many(samples),
+        OuterDecision.many(samples),
+        Derived.many(samples),
+        MotorState.many(samples, motors),
+        MotorDecision.many(samples, motors),
+        MotorDerived.many(samples, motors),
         np.zeros((samples, motors + 1)),
         np.zeros((samples, 5, 2 * elements)),
     )
 
 
-def make_tally(elements: int, scales: np.ndarray, limits: np.ndarray) -> Tally:
-    """Nothing seen yet; f23 and voltage limit of each motor."""
-    probes = np.array([[element, *weights] for element, weights in (probe(s, elements) for s in (0.25, 0.5, 0.75))])
-    drives = np.stack([limits, np.zeros(limits.size)])
-    return Tally(probes, np.zeros((2, 11)), np.zeros(elements), np.zeros(1, dtype=np.int64), scales, drives)
+def make_tally(elements: int, motors: tuple[Motor, ...]) -> Tally:
+    """Nothing seen yet."""
+    probes, records = Probe.many(3), MotorTally.many(len(motors))
+    for k, sigma in enumerate((0.25, 0.5, 0.75)):
+        probes[k] = probe(sigma, elements)
+    for k, motor in enumerate(motors):
+        limit = np.inf if motor.voltage_limit is None else motor.voltage_limit
+        records[k] = (motor_constants(motor).f23, limit, 0)
+    return Tally(probes, Measures.many(1), records, np.zeros(elements))
 
 
 def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
-    """The first ``samples`` stored samples by name, fields ordered from vessel to ROV."""
-    named = {name: log.scalars[:samples, k].copy() for k, name in enumerate(SCALARS + WORKS)}
+    """The first ``samples`` stored samples by name, in the order of ``CHANNELS``; fields from vessel to ROV."""
+    kept: list[Any] = [log.outside, log.ends, log.works, log.outer, log.derived]
     if driven:
-        named |= {name: log.motors[:samples, k].copy() for k, name in enumerate(PER_MOTOR)}
+        kept += [log.motors, log.motors["outside"], log.decisions, log.motors_derived]
+    named = {name: rows[name][:samples].copy() for rows in kept for name in rows.dtype.names if name in CHANNELS}
+    if driven:
         named["kappa"] = log.kappa[:samples].copy()
-    return named | _along_cable(*inside(log, samples), named)
+    named |= _along_cable(*inside(log, samples), named)
+    return {name: named[name] for name in CHANNELS if name in named}
 
 
 def inside(log: Log, samples: int) -> tuple[np.ndarray, np.ndarray]:
@@ -125,14 +179,14 @@ def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
     """Keep the largest slopes; False if one is beyond :data:`STEEPEST` or not a number."""
     x = state.blocks[PRESENT]
     n = slopes.size
-    scale = 1.0 / state.now[LENGTH]
+    scale = 1.0 / state.now[0].outside.length
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     for e in range(n):
         largest = max(max(max(abs(x0[e]), abs(x1[e])), max(abs(x2[e]), abs(x3[e]))), abs(x4[e]))
         # A maximum may lose what is not a number; the product with zero does not, nor does the comparison.
         slope = scale * largest + 0.0 * (x0[e] + x1[e] + x2[e] + x3[e] + x4[e])
         slopes[e] = slopes[e] if slope <= slopes[e] else slope
-    tip = abs(state.ends[TIP_SLOPE])
+    tip = abs(state.now[0].ends.tip_slope)
     slopes[n - 1] = slopes[n - 1] if tip <= slopes[n - 1] else tip
     steep = 0
     for e in range(n):
@@ -141,77 +195,92 @@ def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
 
 
 @glue
-def note(tally: Tally, place: int, value: float) -> None:
+def note(measure: Measure, value: float) -> None:
     """Peak and sum of squares of one measure."""
-    tally.measures[PEAK, place] = max(tally.measures[PEAK, place], abs(value))
-    tally.measures[SQUARES, place] += value * value
+    measure.peak = max(measure.peak, abs(value))
+    measure.squares += value * value
+
+
+@glue
+def probed(probe: Probe, state: PlantState) -> float:
+    """Displacement at a probe, m."""
+    x, e, w = state.blocks[PRESENT], probe.element, probe.slope_weights
+    gained = w[0] * x[0, e] + w[1] * x[1, e] + w[2] * x[2, e] + w[3] * x[3, e] + w[4] * x[4, e]
+    return state.starts[e] + gained
 
 
 @glue
 def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bool) -> bool:
     """Take one control sample into the tally; False if the model has ended (non-finite, or too steep)."""
-    x, tip = state.blocks[PRESENT], state.ends[TIP_DISPLACEMENT]
-    for p in range(3):
-        e, w = int(tally.probes[p, 0]), tally.probes[p]
-        gained = w[1] * x[0, e] + w[2] * x[1, e] + w[3] * x[2, e] + w[4] * x[3, e] + w[5] * x[4, e]
-        note(tally, QUARTER + p, state.starts[e] + gained)
-    note(tally, TIP, tip)
+    now, found, command = state.now[0], tally.measures[0], decision.outer[0].thrust_command
+    tip, thrust = now.ends.tip_displacement, now.thrust
+    note(found.quarter, probed(tally.probes[0], state))
+    note(found.mid, probed(tally.probes[1], state))
+    note(found.three_quarter, probed(tally.probes[2], state))
+    note(found.tip, tip)
     if after_fault:
-        note(tally, TIP_AFTER_FAULT, tip)
-    note(tally, COMMAND, decision.outer[0].thrust_command)
-    note(tally, THRUST, state.now[DELIVERED])
+        note(found.tip_after_fault, tip)
+    note(found.command, command)
+    note(found.thrust, thrust)
     # Python floats: infinite minus infinite is not worth a warning of numpy.
-    note(tally, GAP, float(decision.outer[0].thrust_command) - float(state.now[DELIVERED]))
-    finite = np.isfinite(tip) and np.isfinite(state.ends[TIP_VELOCITY]) and np.isfinite(state.now[DELIVERED])
-    for k in range(state.motors.shape[1]):
-        note(tally, MOTOR_VOLTAGE, decision.motors[k].motor_voltage)
-        note(tally, MOTOR_SPEED, state.motors[ROTOR_SPEED, k])
-        note(tally, MOTOR_CURRENT, state.motors[CURRENT, k])
-        if abs(decision.motors[k].motor_voltage) >= tally.drives[LIMIT, k]:
-            tally.drives[AT_LIMIT, k] += 1.0
-        finite = finite and np.isfinite(state.motors[ROTOR_SPEED, k]) and np.isfinite(state.motors[CURRENT, k])
-        finite = finite and np.isfinite(decision.motors[k].motor_voltage)
-    tally.count[0] += 1
+    note(found.gap, float(command) - float(thrust))
+    finite = np.isfinite(tip) and np.isfinite(now.ends.tip_velocity) and np.isfinite(thrust)
+    for k in range(state.motors.size):
+        motor, voltage, seen = state.motors[k], decision.motors[k].motor_voltage, tally.motors[k]
+        note(found.voltage, voltage)
+        note(found.speed, motor.motor_speed)
+        note(found.current, motor.motor_current)
+        if abs(voltage) >= seen.voltage_limit:
+            seen.samples_at_limit += 1
+        finite = finite and np.isfinite(motor.motor_speed) and np.isfinite(motor.motor_current)
+        finite = finite and np.isfinite(voltage)
+    found.samples += 1
     return watch_slopes(state, tally.slopes) and finite
+
+
+def root_mean_square(tally: Tally, measure: Measure) -> float:
+    """Root mean square of a measure over the control samples so far."""
+    return float(np.sqrt(measure.squares / max(tally.measures[0].samples, 1)))
 
 
 @glue
 def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decision, kappa: np.ndarray) -> None:
     """Store one sample of everything."""
-    store_scalars(log.scalars[row], state, decision)
+    now = state.now[0]
+    log.outside[row] = now.outside
+    log.ends[row] = now.ends
+    log.works[row] = now.works
+    log.outer[row] = decision.outer[0]
+    store_derived(log.derived[row], state, decision)
+    for k in range(state.motors.size):
+        log.motors[row, k] = state.motors[k]
+        log.decisions[row, k] = decision.motors[k]
+        disturbance = tally.motors[k].f23 * state.motors[k].outside.voltage_disturbance
+        log.motors_derived[row, k].motor_disturbance = disturbance
     for k in range(kappa.size):
         log.kappa[row, k] = kappa[k]
     for node in range(state.blocks.shape[1]):
         for column in range(state.blocks.shape[2]):
             log.blocks[row, node, column] = state.blocks[PRESENT, node, column]
-    for k in range(state.motors.shape[1]):
-        out = log.motors[row, :, k]
-        out[0], out[1] = state.motors[ROTOR_SPEED, k], state.motors[CURRENT, k]
-        decided = decision.motors[k]
-        out[2], out[3], out[4] = decided.motor_voltage, decided.demand, decided.speed_reference
-        out[5] = tally.scales[k] * state.motors_now[VOLTAGE_DISTURBANCE, k]
-        out[6], out[7] = decided.motor_disturbance_estimate, state.motors_now[EFFECTIVENESS, k]
 
 
 @kernel
-def store_scalars(out: np.ndarray, state: PlantState, decision: Decision) -> None:
-    """SCALARS, then WORKS, in their order."""
-    now, outer, ends = state.now, decision.outer[0], state.ends
-    out[0], out[1], out[2], out[3] = now[LENGTH], now[SPEED], now[ACCELERATION], now[VESSEL]
-    out[4], out[5], out[6] = ends[VESSEL_SLOPE], ends[TIP_DISPLACEMENT], ends[TIP_VELOCITY]
-    out[7], out[8] = ends[TIP_SLOPE], true_slope_rate(state)
-    out[9], out[10] = outer.thrust_command, outer.boundary_error
-    out[11], out[12] = outer.tip_velocity_estimate, outer.tip_slope_rate_estimate
-    out[13], out[14], out[15] = outer.disturbance_estimate, now[FORCE], now[DELIVERED]
-    out[16] = now[FORCE] + now[DELIVERED] - outer.thrust_command
-    for term in range(END_TERMS):
-        out[17 + term] = state.power_ends[SINCE_START, term]
-    for term in range(ALONG_TERMS):
-        work = 0.0
-        for e in range(state.power_along.shape[2]):
-            work += state.power_along[SINCE_START, term, e]
-        out[17 + END_TERMS + term] = work
-    taken = 0.0
-    for f in range(state.losses.shape[1]):
-        taken += state.losses[SINCE_START, f]
-    out[17 + END_TERMS + ALONG_TERMS] = taken
+def store_derived(out: Derived, state: PlantState, decision: Decision) -> None:
+    """Work out what only the record holds."""
+    now = state.now[0]
+    out.tip_slope_rate = true_slope_rate(state)
+    out.thrust = now.thrust
+    out.disturbance = now.outside.payload_force + now.thrust - decision.outer[0].thrust_command
+    out.work_cable_damping = total(state.work.cable_damping)
+    out.work_cable_load = total(state.work.cable_load)
+    out.work_tension = total(state.work.tension)
+    out.work_grid = total(state.lost)
+
+
+@kernel
+def total(values: np.ndarray) -> float:
+    """Sum from vessel to ROV."""
+    found = 0.0
+    for e in range(values.size):
+        found += values[e]
+    return found

@@ -12,7 +12,7 @@ import numpy as np
 
 from umbilical.admission.findings import Notice
 from umbilical.admission.steps import reachable_speed
-from umbilical.engine.recording import AT_LIMIT, COMMAND, GAP, LIMIT, PEAK, SQUARES, THRUST, Tally
+from umbilical.engine.recording import Tally, root_mean_square
 from umbilical.scenario.scenario import Scenario
 
 SATURATED = 0.01
@@ -35,12 +35,12 @@ def saturation(scenario: Scenario, tally: Tally) -> dict[str, float]:
     """
     if scenario.ideal_thruster or not scenario.motors:
         return {}
-    found, count = {}, max(int(tally.count[0]), 1)
-    limited = np.isfinite(tally.drives[LIMIT])
+    found, count, gap = {}, max(int(tally.measures[0].samples), 1), tally.measures[0].gap
+    limited = np.isfinite(tally.motors["voltage_limit"])
     if limited.any():
-        found["saturated_share"] = float(np.mean(tally.drives[AT_LIMIT, limited])) / count
-    if not np.isnan(tally.measures[SQUARES, GAP]):
-        found["thrust_gap"] = float(np.sqrt(tally.measures[SQUARES, GAP] / count))
+        found["saturated_share"] = float(np.mean(tally.motors["samples_at_limit"][limited])) / count
+    if not np.isnan(gap.squares):
+        found["thrust_gap"] = root_mean_square(tally, gap)
     return found
 
 
@@ -65,8 +65,8 @@ def thrust_capability(scenario: Scenario) -> float:
 
 
 def _saturated(tally: Tally) -> Iterator[Notice]:
-    shares = tally.drives[AT_LIMIT] / max(int(tally.count[0]), 1)
-    for number, (limit, share) in enumerate(zip(tally.drives[LIMIT], shares, strict=True), start=1):
+    for number, motor in enumerate(tally.motors, start=1):
+        limit, share = motor.voltage_limit, motor.samples_at_limit / max(tally.measures[0].samples, 1)
         if share > SATURATED:
             yield Notice(
                 f"motors.{number}.voltage_limit",
@@ -76,14 +76,15 @@ def _saturated(tally: Tally) -> Iterator[Notice]:
 
 
 def _runaway(scenario: Scenario, tally: Tally) -> Iterator[Notice]:
-    capability, peak = thrust_capability(scenario), float(tally.measures[PEAK, COMMAND])
-    rms = np.sqrt(tally.measures[SQUARES] / max(int(tally.count[0]), 1))
+    capability, peak = thrust_capability(scenario), float(tally.measures[0].command.peak)
+    found = tally.measures[0]
+    gap, commanded, delivered = (root_mean_square(tally, m) for m in (found.gap, found.command, found.thrust))
     if peak > RUNAWAY * capability:
         given = f"of thrusters that give {capability:.3g} N at their voltage limits"
         yield Notice("control", f"a thrust of up to {peak:.3g} N was commanded {given}")
-    elif rms[GAP] > UNDELIVERED * rms[THRUST]:
+    elif gap > UNDELIVERED * delivered:
         yield Notice(
             "control",
-            f"{rms[COMMAND]:.3g} N (RMS) were commanded and {rms[THRUST]:.3g} N delivered: "
+            f"{commanded:.3g} N (RMS) were commanded and {delivered:.3g} N delivered: "
             "the thrusters do not follow the command",
         )

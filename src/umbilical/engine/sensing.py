@@ -7,51 +7,64 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import Readings
+from umbilical.control.contract import MotorReadings, Readings, TipReadings
 from umbilical.engine.stepping import PlantState
+from umbilical.frames import Frame, as_array, integer, numbers, real
 from umbilical.plant import cable
-from umbilical.plant.exogenous import ACCELERATION, LENGTH, SPEED
-from umbilical.plant.motors import CURRENT
-from umbilical.plant.motors import SPEED as ROTOR_SPEED
 from umbilical.scenario.scenario import Scenario
 
-SCALARS = 4  # displacement, slope, velocity, slope rate; then speeds, then currents
 
+class SensorError(Frame):
+    """Errors of one channel; its latency is in samples."""
 
-# Rows of Sensors.errors.
-BIAS, NOISE, RESOLUTION, LATENCY, DROPOUT = range(5)
+    sensor_bias = real()
+    sensor_noise = real()
+    sensor_resolution = real()
+    latency_samples = integer()
+    sensor_dropout = real()
 
 
 class Sensors(NamedTuple):
-    """Errors of every channel, shape (5, 4 + 2 n), latency in samples; ``perfect`` skips them all."""
+    """Errors of every channel: those at the ROV, then a quantity of all motors after another; ``perfect``: none."""
 
     perfect: bool
-    errors: np.ndarray
+    errors: SensorError
 
 
 class SensorState(NamedTuple):
-    """Last samples (the oldest is overwritten), the readings held through a drop-out, and the count of samples."""
+    """What sensors remember, and the readings that they spoil.
+
+    Attributes:
+        samples: last true values, the oldest is overwritten, shape (depth, channels).
+        held: readings held through a drop-out, shape (channels,).
+        count: samples so far, shape (1,).
+        tip: the memory of ``Readings.tip`` as numbers, shape (4,).
+        motors: the memory of ``Readings.motors`` as numbers, shape (motors, 2).
+    """
 
     samples: np.ndarray
     held: np.ndarray
     count: np.ndarray
+    tip: np.ndarray
+    motors: np.ndarray
 
 
 def make_sensors(scenario: Scenario) -> Sensors:
     """Sensors of a scenario; latency in whole control periods."""
-    s, n = scenario.sensors, len(scenario.motors)
-    channels = [s.tip_displacement, s.tip_slope, s.tip_velocity, s.tip_slope_rate]
-    channels += [s.motor_speed] * n + [s.motor_current] * n
-    period = scenario.control.period
-    rows = [(c.bias, c.noise, c.resolution, round(c.latency / period), c.dropout) for c in channels]
-    errors = np.array(rows, dtype=float).T.copy()
-    return Sensors(not errors.any(), errors)
+    names = [*TipReadings.fields, *(name for name in MotorReadings.fields for _ in scenario.motors)]
+    errors = SensorError.many(len(names))
+    for k, name in enumerate(names):
+        c = getattr(scenario.sensors, name)
+        latency = round(c.latency / scenario.control.period)
+        errors[k] = (c.bias, c.noise, c.resolution, latency, c.dropout)
+    return Sensors(not any(any(numbers(error)) for error in errors), errors)
 
 
-def make_sensor_state(sensors: Sensors) -> SensorState:
+def make_sensor_state(sensors: Sensors, readings: Readings) -> SensorState:
     """Nothing read yet."""
-    depth, width = int(sensors.errors[LATENCY].max(initial=0)) + 1, sensors.errors.shape[1]
-    return SensorState(np.zeros((depth, width)), np.zeros(width), np.zeros(1, dtype=np.int64))
+    depth, width = int(sensors.errors["latency_samples"].max(initial=0)) + 1, sensors.errors.size
+    tip, motors = as_array(readings.tip)[0], as_array(readings.motors)
+    return SensorState(np.zeros((depth, width)), np.zeros(width), np.zeros(1, dtype=np.int64), tip, motors)
 
 
 class Dice:
@@ -66,10 +79,10 @@ class Dice:
         """Noise of the next updates, shape (updates, channels), NaN where a reading is lost; none if perfect."""
         errors = self._sensors.errors
         if self._sensors.perfect:
-            return np.zeros((0, errors.shape[1]))
-        shape = (updates, errors.shape[1])
-        noise = self._noise.standard_normal(shape) * errors[NOISE]
-        lost = self._lost.random(shape) < errors[DROPOUT]
+            return np.zeros((0, errors.size))
+        shape = (updates, errors.size)
+        noise = self._noise.standard_normal(shape) * errors["sensor_noise"]
+        lost = self._lost.random(shape) < errors["sensor_dropout"]
         lost[0] &= self._drawn > 0  # there is nothing to hold before the first reading
         self._drawn += updates
         return np.where(lost, np.nan, noise)
@@ -85,53 +98,50 @@ def true_slope_rate(state: PlantState) -> float:
     n = x.shape[1] // 2
     last, d = 2 * n - 1, cable.TIP_ROW
     slope = d[0] * x[0, last] + d[1] * x[1, last] + d[2] * x[2, last] + d[3] * x[3, last] + d[4] * x[4, last]
-    slope += cable.LIFT * (state.ends[cable.TIP_VELOCITY] - x[4, last])
-    return 2.0 * n / state.now[LENGTH] * slope
+    slope += cable.LIFT * (state.now[0].ends.tip_velocity - x[4, last])
+    return 2.0 * n / state.now[0].outside.length * slope
 
 
 @glue
 def read_truth(state: PlantState, readings: Readings) -> None:
     """Perfect readings."""
-    tip, winch, ends = readings.tip[0], readings.winch[0], state.ends
-    tip.tip_displacement = ends[cable.TIP_DISPLACEMENT]
-    tip.tip_slope = ends[cable.TIP_SLOPE]
-    tip.tip_velocity = ends[cable.TIP_VELOCITY]
+    tip, winch, ends, outside = readings.tip[0], readings.winch[0], state.now[0].ends, state.now[0].outside
+    tip.tip_displacement = ends.tip_displacement
+    tip.tip_slope = ends.tip_slope
+    tip.tip_velocity = ends.tip_velocity
     tip.tip_slope_rate = true_slope_rate(state)
-    winch.length, winch.payout_speed = state.now[LENGTH], state.now[SPEED]
-    winch.payout_acceleration = state.now[ACCELERATION]
+    winch.length, winch.payout_speed = outside.length, outside.payout_speed
+    winch.payout_acceleration = outside.payout_acceleration
     for k in range(readings.motors.size):
-        readings.motors[k].motor_speed = state.motors[ROTOR_SPEED, k]
-        readings.motors[k].motor_current = state.motors[CURRENT, k]
+        readings.motors[k].motor_speed = state.motors[k].motor_speed
+        readings.motors[k].motor_current = state.motors[k].motor_current
 
 
 @kernel
-def add_errors(s: Sensors, memory: SensorState, noise: np.ndarray, c: int, truth: float) -> float:
+def add_errors(s: Sensors, memory: SensorState, noise: np.ndarray) -> None:
+    """Errors of every channel on what was read of the truth."""
+    tip, motors = memory.tip, memory.motors
+    for c in range(tip.size):
+        tip[c] = with_errors(s.errors[c], memory, noise, c, tip[c])
+    for quantity in range(motors.shape[1]):
+        for k in range(motors.shape[0]):
+            c = tip.size + quantity * motors.shape[0] + k
+            motors[k, quantity] = with_errors(s.errors[c], memory, noise, c, motors[k, quantity])
+    memory.count[0] += 1
+
+
+@kernel
+def with_errors(error: SensorError, memory: SensorState, noise: np.ndarray, c: int, truth: float) -> float:
     """Reading of channel c: latency, bias, noise, resolution, drop-out, in this order."""
     depth, count = memory.samples.shape[0], memory.count[0]
     memory.samples[count % depth, c] = truth
-    age = min(int(s.errors[LATENCY, c]), count)
-    value = memory.samples[(count - age) % depth, c] + s.errors[BIAS, c] + noise[c]
-    step = s.errors[RESOLUTION, c]
-    if step > 0.0:
-        value = np.rint(value / step) * step
+    age = min(error.latency_samples, count)
+    value = memory.samples[(count - age) % depth, c] + error.sensor_bias + noise[c]
+    if error.sensor_resolution > 0.0:
+        value = np.rint(value / error.sensor_resolution) * error.sensor_resolution
     if not np.isnan(noise[c]):
         memory.held[c] = value
     return memory.held[c]
-
-
-@kernel
-def spoil(s: Sensors, memory: SensorState, noise: np.ndarray, readings: Readings) -> None:
-    """Errors of every channel."""
-    tip, n = readings.tip[0], readings.motors.size
-    tip.tip_displacement = add_errors(s, memory, noise, 0, tip.tip_displacement)
-    tip.tip_slope = add_errors(s, memory, noise, 1, tip.tip_slope)
-    tip.tip_velocity = add_errors(s, memory, noise, 2, tip.tip_velocity)
-    tip.tip_slope_rate = add_errors(s, memory, noise, 3, tip.tip_slope_rate)
-    for k in range(n):
-        motor = readings.motors[k]
-        motor.motor_speed = add_errors(s, memory, noise, SCALARS + k, motor.motor_speed)
-        motor.motor_current = add_errors(s, memory, noise, SCALARS + n + k, motor.motor_current)
-    memory.count[0] += 1
 
 
 @glue
@@ -139,4 +149,4 @@ def sense(s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: P
     """One sample of all sensors into ``readings``; ``row`` is the update's row in ``noise``."""
     read_truth(state, readings)
     if not s.perfect:
-        spoil(s, memory, noise[row], readings)
+        add_errors(s, memory, noise[row])

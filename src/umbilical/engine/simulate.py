@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from time import perf_counter
 from typing import NamedTuple
 
@@ -15,37 +16,15 @@ from umbilical.compile import announce
 from umbilical.control import cascade
 from umbilical.control.contract import Controller, make_decision, make_readings
 from umbilical.engine import loop
-from umbilical.engine.recording import (
-    COMMAND,
-    MID,
-    MOTOR_CURRENT,
-    MOTOR_SPEED,
-    MOTOR_VOLTAGE,
-    PEAK,
-    QUARTER,
-    SQUARES,
-    THREE_QUARTER,
-    THRUST,
-    TIP,
-    TIP_AFTER_FAULT,
-    WORKS,
-    Log,
-    Tally,
-    channels,
-    inside,
-    make_log,
-    make_tally,
-)
+from umbilical.engine.recording import WORKS, Log, Tally, channels, inside, make_log, make_tally, root_mean_square
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Clock, make_clock, stretch
 from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
 from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.plant import faults
-from umbilical.plant.cable import TIP_DISPLACEMENT
 from umbilical.plant.exogenous import Outside, published_jumps
 from umbilical.plant.layout import positions
-from umbilical.relations.formulas import motor_constants
 from umbilical.relations.instants import apart, count_up, is_multiple, nearest_count
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
@@ -174,13 +153,13 @@ def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: 
         period, every = _periods(scenario, controller)
     clock = make_clock(scenario.duration, period, chosen_step(scenario), published_jumps(scenario))
     motors = len(scenario.motors)
-    sensors = make_sensors(scenario)
+    sensors, readings = make_sensors(scenario), make_readings(motors)
     world = loop.World(
         make_plant(scenario, booked=stored),
         make_plant_state(scenario),
         sensors,
-        make_sensor_state(sensors),
-        make_readings(motors),
+        make_sensor_state(sensors, readings),
+        readings,
         make_decision(motors),
     )
     record = _record(scenario, clock, stored)
@@ -216,12 +195,10 @@ def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
     samples = clock.periods // every + 1 + (clock.periods % every > 0)
     first = faults.first_fault(scenario.faults)
     fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
-    scales = np.array([motor_constants(m).f23 for m in scenario.motors])
-    limits = np.array([np.inf if m.voltage_limit is None else m.voltage_limit for m in scenario.motors])
     elements = scenario.grid.elements
     return loop.Record(
         make_log(samples, len(scenario.motors), elements),
-        make_tally(elements, scales, limits),
+        make_tally(elements, scenario.motors),
         every,
         fault_update,
         clock.periods,
@@ -262,7 +239,7 @@ def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | N
 
 def _so_far(setup: Setup) -> tuple[int, float]:
     """Updates taken, and the time of the last one."""
-    updates = int(setup.record.tally.count[0])
+    updates = int(setup.record.tally.measures[0].samples)
     return updates, max(updates - 1, 0) * setup.clock.period
 
 
@@ -282,7 +259,7 @@ def _assemble(
     every, period = setup.record.every, setup.clock.period
     samples = (ending.updates - 1) // every + 1
     times = np.arange(samples) * every * period
-    if ending.status is Status.COMPLETED and setup.record.log.scalars.shape[0] > samples:
+    if ending.status is Status.COMPLETED and setup.record.log.outside.size > samples:
         samples, times = samples + 1, np.append(times, scenario.duration)
     named = channels(setup.record.log, samples, bool(scenario.motors))
     metrics = _all_metrics(scenario, setup)
@@ -317,7 +294,7 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
 
 def _all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
     """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
-    metrics = _metrics(setup.record.tally, float(setup.world.state.ends[TIP_DISPLACEMENT]))
+    metrics = _metrics(setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement))
     if not scenario.faults:
         del metrics["tip_peak_after_fault"]
     if np.isnan(metrics["effort_rms"]):
@@ -327,26 +304,23 @@ def _all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
 
 def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
     """Metrics over every control sample."""
-    count = max(int(tally.count[0]), 1)
-    rms = np.sqrt(tally.measures[SQUARES] / count)
-    motors = max(tally.scales.size, 1)
-    peaks = tally.measures[PEAK]
+    found, rms = tally.measures[0], partial(root_mean_square, tally)
     return {
-        "tip_peak": peaks[TIP],
-        "tip_rms": rms[TIP],
+        "tip_peak": found.tip.peak,
+        "tip_rms": rms(found.tip),
         "tip_end": tip_end,
-        "tip_peak_after_fault": peaks[TIP_AFTER_FAULT],
-        "mid_peak": peaks[MID],
-        "mid_rms": rms[MID],
-        "quarter_peak": peaks[QUARTER],
-        "quarter_rms": rms[QUARTER],
-        "three_quarter_peak": peaks[THREE_QUARTER],
-        "three_quarter_rms": rms[THREE_QUARTER],
+        "tip_peak_after_fault": found.tip_after_fault.peak,
+        "mid_peak": found.mid.peak,
+        "mid_rms": rms(found.mid),
+        "quarter_peak": found.quarter.peak,
+        "quarter_rms": rms(found.quarter),
+        "three_quarter_peak": found.three_quarter.peak,
+        "three_quarter_rms": rms(found.three_quarter),
         "slope_peak": float(tally.slopes.max()),
-        "effort_rms": rms[COMMAND],
-        "thrust_peak": peaks[THRUST],
-        "motor_speed_peak": peaks[MOTOR_SPEED],
-        "motor_voltage_peak": peaks[MOTOR_VOLTAGE],
-        "motor_voltage_rms": rms[MOTOR_VOLTAGE] / np.sqrt(motors),
-        "motor_current_peak": peaks[MOTOR_CURRENT],
+        "effort_rms": rms(found.command),
+        "thrust_peak": found.thrust.peak,
+        "motor_speed_peak": found.speed.peak,
+        "motor_voltage_peak": found.voltage.peak,
+        "motor_voltage_rms": rms(found.voltage) / np.sqrt(max(tally.motors.size, 1)),
+        "motor_current_peak": found.current.peak,
     }

@@ -26,6 +26,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
+from umbilical.frames import Frame, real, vector
 from umbilical.plant.elements import DERIVATIVE, WEIGHTS
 from umbilical.plant.layout import positions, to_elements
 from umbilical.relations.formulas import tension
@@ -45,11 +46,15 @@ PRESENT, RATES, FLUX = 0, 1, 4
 BLOCKS = 5
 LEFT, RIGHT = range(2)  # rows of the faces, shape (2, 2 n): flux at the left and at the right end of each element
 
-# Places in the ends, shape (6,): the ROV's displacement, velocity and slope; the vessel's slope; the ROV's
-# velocity is a state of its own, with its rates at the last three instants.
-TIP_DISPLACEMENT, TIP_VELOCITY, TIP_SLOPE, VESSEL_SLOPE = range(4)
-TIP_RATES = 4
-ENDS = 7
+
+class Ends(Frame):
+    """ROV and vessel's end of the cable; the ROV's velocity is a state of its own, with its last three rates."""
+
+    tip_displacement = real()
+    tip_velocity = real()
+    tip_slope = real()
+    vessel_slope = real()
+    tip_rates = vector(3)
 
 
 class Cable(NamedTuple):
@@ -132,14 +137,14 @@ def meet(
 
 @kernel
 def look_at_ends(
-    cable: Cable, x: np.ndarray, ends: np.ndarray, length: float, speed: float, net_gravity: float, vessel: float
+    cable: Cable, x: np.ndarray, ends: Ends, length: float, speed: float, net_gravity: float, vessel: float
 ) -> None:
     """Slopes y_x at ROV and vessel, each from the wave that runs into it; ``vessel`` is e', m/s."""
     n = x.shape[1] // 2
     foot = sqrt(tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
     head = sqrt(tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
-    ends[TIP_SLOPE] = x[4, n - 1] / length + (ends[TIP_VELOCITY] - x[4, 2 * n - 1]) / foot
-    ends[VESSEL_SLOPE] = (x[0, n] - vessel + head * x[0, 0] / length) / (head + speed)
+    ends.tip_slope = x[4, n - 1] / length + (ends.tip_velocity - x[4, 2 * n - 1]) / foot
+    ends.vessel_slope = (x[0, n] - vessel + head * x[0, 0] / length) / (head + speed)
 
 
 @kernel
@@ -148,7 +153,7 @@ def meet_ends(
     x: np.ndarray,
     faces: np.ndarray,
     losses: np.ndarray,
-    ends: np.ndarray,
+    ends: Ends,
     length: float,
     speed: float,
     net_gravity: float,
@@ -158,12 +163,12 @@ def meet_ends(
     n = faces.shape[1] // 2
     foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
     head = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
-    top = vessel + speed * ends[VESSEL_SLOPE]
+    top = vessel + speed * ends.vessel_slope
     faces[LEFT, 0] = vessel
-    faces[LEFT, n] = (head * ends[VESSEL_SLOPE] - speed * top) / length
-    faces[RIGHT, n - 1] = ends[TIP_VELOCITY]
-    faces[RIGHT, 2 * n - 1] = foot * ends[TIP_SLOPE] / length
-    top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - ends[TIP_VELOCITY]
+    faces[LEFT, n] = (head * ends.vessel_slope - speed * top) / length
+    faces[RIGHT, n - 1] = ends.tip_velocity
+    faces[RIGHT, 2 * n - 1] = foot * ends.tip_slope / length
+    top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - ends.tip_velocity
     losses[0] = -cable.line_density * (sqrt(head) + speed) * top_step * top_step
     losses[n] = -cable.line_density * sqrt(foot) * tip_step * tip_step
 
@@ -236,7 +241,7 @@ def evaluate(
     blocks: np.ndarray,
     faces: np.ndarray,
     losses: np.ndarray,
-    ends: np.ndarray,
+    ends: Ends,
     slot: int,
     length: float,
     speed: float,
@@ -255,8 +260,8 @@ def evaluate(
     differentiate(blocks[FLUX], faces, rate)
     if loads.size > 0:
         add_loads(cable, rate, loads)
-    pull = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) * ends[TIP_SLOPE]
-    ends[TIP_RATES + slot] = -(pull + cable.payload_damping * ends[TIP_VELOCITY]) / cable.payload_mass
+    pull = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) * ends.tip_slope
+    ends.tip_rates[slot] = -(pull + cable.payload_damping * ends.tip_velocity) / cable.payload_mass
 
 
 @kernel

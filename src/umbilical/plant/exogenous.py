@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from umbilical.frames import Frame, real
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.relations.instants import slack
@@ -37,28 +38,52 @@ class Steps:
     shared: bool = False
 
 
-START, MIDDLE, END = range(3)
-# Rows of Inputs.world.
-LENGTH, SPEED, ACCELERATION, NET_GRAVITY, JERK_RATIO, VESSEL, VESSEL_VELOCITY, FORCE = range(8)
-# Rows of Inputs.motors.
-TORQUE, VOLTAGE, EFFECTIVENESS, STUCK, DRIVE_EFFECTIVENESS, DRIVE_STUCK = range(6)
+START, END, MIDDLE = range(3)  # only motors have a middle
+
+
+class Exogenous(Frame):
+    """What acts on cable and ROV from outside, at an instant."""
+
+    length = real()
+    payout_speed = real()
+    payout_acceleration = real()
+    net_gravity = real()
+    relative_jerk = real()
+    vessel_displacement = real()
+    vessel_velocity = real()
+    payload_force = real()
+
+
+class MotorExogenous(Frame):
+    """What acts on one motor from outside, at an instant."""
+
+    torque_disturbance = real()
+    voltage_disturbance = real()
+    effectiveness = real()
+    stuck_thrust = real()
+    drive_effectiveness = real()
+    stuck_voltage = real()
+
+
+WINCH = ("length", "payout_speed", "payout_acceleration", "net_gravity", "relative_jerk")
+"""Quantities of :class:`Exogenous` that the winch gives, the first it has."""
 
 
 class Inputs(NamedTuple):
-    """What acts from outside: the last dimension is the step, the one before its start, middle and end.
+    """What acts from outside, step by step.
 
     Attributes:
         dt: length of the step, s, shape (steps,).
         refresh: whether something jumped at its start, so that forces must be evaluated anew.
-        world: winch l, v, a; g - a; a'/(g - a); vessel e, e'; force on the ROV d: shape (8, 3, steps).
-        motors: d1 and d2; effectiveness and stuck value of the thrust, then of the drive: (6, motors, 3, steps).
-        loads: signals of the loads along the cable, N/m, shape (loads, 3, steps).
+        world: records of cable and ROV at the step's start and end, shape (steps, 2).
+        motors: records of each motor at the step's start, end and middle, shape (steps, motors, 3).
+        loads: signals of the loads along the cable, N/m, at the step's start and end, shape (steps, loads, 2).
     """
 
     dt: Array
     refresh: Array
-    world: Array
-    motors: Array
+    world: Exogenous
+    motors: MotorExogenous
     loads: Array
 
 
@@ -117,54 +142,51 @@ class Outside:
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
         inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
-        inputs.world[: JERK_RATIO + 1] = _kept(_winch_at, steps)(self._scenario.winch, environment.gravity, steps)
+        rows = _kept(_winch_at, steps)(self._scenario.winch, environment.gravity, steps)
+        for name, row in zip(WINCH, rows, strict=True):
+            inputs.world[name].T[:] = row[:2]
         if environment.vessel_motion:
-            motion = inputs.world[VESSEL : VESSEL_VELOCITY + 1]
+            motion = [inputs.world["vessel_displacement"].T, inputs.world["vessel_velocity"].T]
             _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps, middle=False)
-        _fill_signal(inputs.world[FORCE], environment.payload_force, steps, middle=False)
-        for row, load in zip(inputs.loads, environment.cable_load, strict=True):
-            _fill_signal(row, load.signal, steps, middle=False)
+        _fill_signal(inputs.world["payload_force"].T, environment.payload_force, steps, middle=False)
+        for k, load in enumerate(environment.cable_load):
+            _fill_signal(inputs.loads[:, k].T, load.signal, steps, middle=False)
         self._sample_motors(steps, inputs.motors)
         return inputs
 
-    def _sample_motors(self, steps: Steps, out: Array) -> None:
+    def _sample_motors(self, steps: Steps, out: MotorExogenous) -> None:
         for k, motor in enumerate(self._scenario.motors):
-            _fill_signal(out[TORQUE, k], motor.torque_disturbance, steps)
-            _fill_signal(out[VOLTAGE, k], motor.voltage_disturbance, steps)
+            _fill_signal(out["torque_disturbance"][:, k].T, motor.torque_disturbance, steps)
+            _fill_signal(out["voltage_disturbance"][:, k].T, motor.voltage_disturbance, steps)
         for number in sorted({fault.motor for fault in self._scenario.faults}):
-            of_motor = out[:, number - 1]
-            self._sample_faults(number, "thrust", steps, of_motor[EFFECTIVENESS : STUCK + 1])
-            self._sample_faults(number, "voltage", steps, of_motor[DRIVE_EFFECTIVENESS : DRIVE_STUCK + 1])
+            motor = out[:, number - 1]
+            self._sample_faults(number, "thrust", steps, [motor["effectiveness"].T, motor["stuck_thrust"].T])
+            self._sample_faults(number, "voltage", steps, [motor["drive_effectiveness"].T, motor["stuck_voltage"].T])
 
-    def _sample_faults(self, number: int, target: faults.Target, steps: Steps, out: Array) -> None:
+    def _sample_faults(self, number: int, target: faults.Target, steps: Steps, out: Sequence[Array]) -> None:
         timeline = self._scenario.faults
         _fill(out, lambda t, side: faults.effect(timeline, number, target, t, side), steps)
 
 
 def _empty(scenario: Scenario, steps: int) -> Inputs:
     """Nothing acts, and every motor is healthy."""
-    motors = _step_by_step(steps, 6, len(scenario.motors), 3)
-    motors[EFFECTIVENESS] = motors[DRIVE_EFFECTIVENESS] = 1.0
-    loads = _step_by_step(steps, len(scenario.environment.cable_load), 3)
-    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), _step_by_step(steps, 8, 3), motors, loads)
-
-
-def _step_by_step(steps: int, *shape: int) -> Array:
-    """Zeros of shape (..., steps) that lie in memory step after step: a kernel reads one stretch, not fifty rows."""
-    return np.moveaxis(np.zeros((steps, *shape)), 0, -1)
+    motors = MotorExogenous.many(steps, len(scenario.motors), 3)
+    motors["effectiveness"] = motors["drive_effectiveness"] = 1.0
+    loads = np.zeros((steps, len(scenario.environment.cable_load), 2))
+    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), Exogenous.many(steps, 2), motors, loads)
 
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
 @lru_cache(maxsize=16)
 def _winch_at(law: Winch, gravity: float, steps: Steps) -> Array:
-    """Winch and what follows from it, rows LENGTH to JERK_RATIO of the world."""
+    """Winch and what follows from it, rows as :data:`WINCH` names them."""
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
         length, speed, acceleration, jerk = winch.evaluate(law, t, side)
         net_gravity = gravity - acceleration
         return length, speed, acceleration, net_gravity, jerk / net_gravity
 
-    rows = np.zeros((JERK_RATIO + 1, 3, steps.start.size))
+    rows = np.zeros((len(WINCH), 3, steps.start.size))
     _fill(rows, motion, steps, middle=False)
     return rows
 
@@ -182,15 +204,19 @@ def _kept(function: Any, steps: Steps) -> Callable[..., Array]:
 
 
 def _fill_signal(row: Array, signal: signals.Signal, steps: Steps, *, middle: bool = True) -> None:
-    """A signal into ``row``, shape (3, steps); the rows of absent signals stay zero."""
+    """A signal into ``row``, shape (2 or 3, steps); the rows of absent signals stay zero."""
     if signal:
-        row[:] = _kept(_signal_at, steps)(signal, steps, middle)
+        row[:] = _kept(_signal_at, steps)(signal, steps, middle)[: len(row)]
 
 
 def _fill(
-    rows: Array, function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = True
+    rows: Sequence[Array] | Array,
+    function: Callable[[Array, signals.Side], Sequence[Array]],
+    steps: Steps,
+    *,
+    middle: bool = True,
 ) -> None:
-    """Functions of time into ``rows``, shape (functions, 3, steps); only motors look at the ``middle``."""
+    """Functions of time into one of ``rows`` each, shape (2 or 3, steps); only motors look at the ``middle``."""
     if middle:
         for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
             row[MIDDLE] = values

@@ -12,16 +12,41 @@ from waves too short for the grid is in no term: it stays as the residual of the
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from umbilical.compile import kernel
-from umbilical.plant.cable import TIP_VELOCITY, VESSEL_SLOPE, W0, W1, W2, Cable
+from umbilical.frames import Frame, real
+from umbilical.plant.cable import W0, W1, W2, Cable, Ends
 from umbilical.relations.formulas import tension
 
-# Terms that act at the ends of the cable; then those along it, which are kept element by element.
-THRUST, PAYLOAD_FORCE, PAYLOAD_DAMPING, VESSEL = range(4)  # the first two by their impulse
-CABLE_DAMPING, CABLE_LOAD, TENSION = range(3)
-END_TERMS, ALONG_TERMS = 4, 3
+
+class EndWorks(Frame):
+    """Work done at the ends of the cable since the start, and the present power of what has one.
+
+    Thrust and force on the ROV work by their impulse.
+    """
+
+    work_thrust = real()
+    work_payload_force = real()
+    work_payload_damping = real()
+    work_vessel = real()
+    power_payload_damping = real()
+    power_vessel = real()
+
+
+class Along(NamedTuple):
+    """A power, W, or its work, J, in each element of the cable, shape (n,) each."""
+
+    cable_damping: np.ndarray
+    cable_load: np.ndarray
+    tension: np.ndarray
+
+
+def make_along(elements: int) -> Along:
+    """Nothing yet."""
+    return Along(*np.zeros((len(Along._fields), elements)))
 
 
 @kernel
@@ -29,7 +54,11 @@ def strain_of_elements(
     cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net_gravity: float,
     factor: float,
 ) -> None:  # fmt: skip
-    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) as its power, see :func:`book`."""
+    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) as its power.
+
+    The power at the end of a step, with that at its start, works for ``half`` the step; then it is the present one.
+    After a jump ``half`` is 0: the new power takes the place of the old.
+    """
     n = power.size
     foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density)
     rise = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) - foot
@@ -48,7 +77,7 @@ def strain_of_elements(
 def squares_of_elements(
     x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, factor: float
 ) -> None:
-    """``factor`` times int W^2 dx of every element, m3/s2, as its new power, see :func:`book`."""
+    """``factor`` times int W^2 dx of every element, m3/s2, as its new power."""
     n = power.size
     scale = factor * length / (2.0 * n)
     w0, w1, w2, w3, w4 = x[0, n:], x[1, n:], x[2, n:], x[3, n:], x[4, n:]
@@ -63,7 +92,7 @@ def squares_of_elements(
 def load_on_elements(
     cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, loads: np.ndarray
 ) -> None:
-    """int f W dx of every element, W, as its new power, see :func:`book`."""
+    """int f W dx of every element, W, as its new power."""
     n = power.size
     scale = length / (2.0 * n)
     for e in range(n):
@@ -83,49 +112,43 @@ def load_on_elements(
 def book_along(
     cable: Cable,
     x: np.ndarray,
-    power: np.ndarray,
-    work: np.ndarray,
+    power: Along,
+    work: Along,
     half: float,
     length: float,
     net_gravity: float,
-    jerk_ratio: float,
-    last_jerk_ratio: float,
+    relative_jerk: float,
+    last_relative_jerk: float,
     loads: np.ndarray,
 ) -> None:
-    """Terms along the cable, element by element, shape (3, n) each, see :func:`book`.
+    """Terms along the cable, element by element.
 
     The tension works only while the winch acceleration changes, or did at the start of the step.
     """
     if cable.damping != 0.0:
-        squares_of_elements(x, power[CABLE_DAMPING], work[CABLE_DAMPING], half, length, -cable.damping)
+        squares_of_elements(x, power.cable_damping, work.cable_damping, half, length, -cable.damping)
     if loads.size > 0:
-        load_on_elements(cable, x, power[CABLE_LOAD], work[CABLE_LOAD], half, length, loads)
-    if jerk_ratio != 0.0 or last_jerk_ratio != 0.0:
-        strain_of_elements(cable, x, power[TENSION], work[TENSION], half, length, net_gravity, -0.5 * jerk_ratio)
+        load_on_elements(cable, x, power.cable_load, work.cable_load, half, length, loads)
+    if relative_jerk != 0.0 or last_relative_jerk != 0.0:
+        strain_of_elements(cable, x, power.tension, work.tension, half, length, net_gravity, -0.5 * relative_jerk)
 
 
 @kernel
 def book_at_ends(
-    cable: Cable, ends: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, speed: float,
-    net_gravity: float, vessel: float,
+    cable: Cable, ends: Ends, works: EndWorks, half: float, length: float, speed: float, net_gravity: float,
+    vessel: float,
 ) -> None:  # fmt: skip
-    """Damping of the ROV and the vessel's end, shape (4,) each, see :func:`book`; ``vessel`` is e', m/s."""
+    """Damping of the ROV and the vessel's end, ``half`` as in :func:`strain_of_elements`; ``vessel`` is e', m/s."""
     top_tension = tension(length, net_gravity, cable.payload_mass, cable.hanging_density)
-    top_slope = ends[VESSEL_SLOPE]
+    top_slope = ends.vessel_slope
     top_velocity = vessel + speed * top_slope
-    book(power, work, PAYLOAD_DAMPING, -cable.payload_damping * ends[TIP_VELOCITY] * ends[TIP_VELOCITY], half)
+    damping = -cable.payload_damping * ends.tip_velocity * ends.tip_velocity
+    works.work_payload_damping += half * (works.power_payload_damping + damping)
+    works.power_payload_damping = damping
     pull = -top_tension * top_slope * (vessel + 0.5 * speed * top_slope)
-    book(power, work, VESSEL, pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity, half)
-
-
-@kernel
-def book(power: np.ndarray, work: np.ndarray, place: int, new: float, half: float) -> None:
-    """A power at the end of a step: with that at its start it works for ``half`` the step; then it is the present one.
-
-    After a jump ``half`` is 0: the new power takes the place of the old.
-    """
-    work[place] += half * (power[place] + new)
-    power[place] = new
+    top = pull + 0.5 * cable.line_density * speed * top_velocity * top_velocity
+    works.work_vessel += half * (works.power_vessel + top)
+    works.power_vessel = top
 
 
 @kernel
