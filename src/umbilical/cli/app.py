@@ -89,7 +89,7 @@ def umbilical(
       umbilical presets --copy paper my.toml
       umbilical show my.toml
       umbilical compare paper.nc other.nc
-      umbilical certify my.toml
+      umbilical certify ringdown --set control.law.slope_gain=5
       umbilical sweep paper-robustness --out robust
       umbilical tune gain-tuning --out tuned
     """

@@ -40,9 +40,10 @@ def certify(
     \b
     examples
       umbilical certify ringdown --set control.law.slope_gain=5
-      umbilical certify haul-in --audit --plot haul-in-certificate.png
+      umbilical certify haul-in --set control.law.slope_gain=5 --audit --plot haul-in-certificate.png
 
-    The ideal loop has no observers, no sampling and perfect thrusters. The exit code is 7 when nothing is certified.
+    The ideal loop has no observers, no sampling and perfect thrusters. The exit code is 7 when nothing is certified,
+    and then there is nothing that --audit could simulate against: the second line says what was proved to mend it.
     """
     chosen = load_changed(scenario, changes or [])
     if plot:
@@ -59,10 +60,11 @@ def certify(
 
 
 def _work(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
-    if not audit:
-        from umbilical.analysis.certificate import certify as prove
+    from umbilical.analysis.certificate import certify as prove
 
-        return prove(scenario), None
+    certificate = prove(scenario)
+    if not audit or not certificate.holds:
+        return certificate, None
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies import audit as audits
 
@@ -107,7 +109,9 @@ def _missing(certificate: Certificate) -> list[str]:
 def _report(certificate: Certificate) -> Iterator[str]:
     """What to do, the conditions, what follows, and what it does not speak about."""
     for cure in certificate.cures:
-        yield f"  cure: {cure.cure} ({cure.key} = {cure.value}; certified: {cure.bound})"
+        yield f"  cure: {cure.cure} ({cure.key} = {cure.value}; {cure.bound})"
+    if not certificate.holds and not certificate.cures:
+        yield "  no cure was found: none of the slope gains and slower winches that were tried is certified"
     yield table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
     yield ""
     yield table(
@@ -160,6 +164,8 @@ def _shown(value: float, digits: int = 4) -> str:
 
 def _proof(certificate: Certificate) -> str:
     proof = certificate.proof
+    if proof.holds and certificate.rate <= 0.0:
+        return "verified by interval arithmetic: these rates, of which one at least is no decay"
     if proof.holds:
         return f"verified for all x and t by interval arithmetic, in {proof.boxes} boxes of time"
     if not proof.boxes:

@@ -12,6 +12,7 @@ from umbilical.analysis.certificate.ranges import ranges_of, stretch_of
 from umbilical.analysis.certificate.records import Certificate
 from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
 from umbilical.analysis.ideal_loop import energy_rate
+from umbilical.scenario.control import Nominal
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
 
@@ -82,6 +83,6 @@ def _limits(scenario: Scenario) -> tuple[str, ...]:
         "the adaptive law": control.allocation.method == "adaptive",
         "faults": bool(scenario.faults),
         "errors of the sensors": scenario.sensors != Sensors(ideal_velocity=scenario.sensors.ideal_velocity),
-        "constants the controller believes and that are not true": any(control.nominal.model_dump().values()),
+        "constants the controller believes and that are not true": control.nominal != Nominal(),
     }
     return tuple(name for name, present in outside.items() if present)

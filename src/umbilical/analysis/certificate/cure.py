@@ -1,7 +1,7 @@
-"""What would mend a certificate that does not hold: the slope gains that can be certified.
+"""What would mend a certificate that does not hold: another slope gain or, where none is found, a slower winch.
 
-Samples find the edges of their range. What is printed lies inside of them and is itself proved, digit by digit: a
-cure that is followed is certified.
+Samples suggest. What is printed is itself proved, digit by digit: a cure that is followed is certified, and where
+nothing could be proved nothing is suggested.
 """
 
 from __future__ import annotations
@@ -15,14 +15,18 @@ import numpy as np
 from umbilical.analysis.certificate.attempt import Task, attempt
 from umbilical.analysis.certificate.conditions import SLACK, rates
 from umbilical.analysis.certificate.search import best_weights
-from umbilical.analysis.certificate.setting import Loop, Motion
+from umbilical.analysis.certificate.setting import Loop, Motion, sampled, slab_edges
 from umbilical.errors import Problem
+from umbilical.scenario.winch import Winch
 
 TRIED, HALVINGS = 25, 10
 DIGITS = 4
 """Digits of a gain that is recommended; it is tried with just these."""
 STEPS = 8
 """Steps away from the sampled edge, each twice as long as the last, until a gain is proved."""
+
+SLOWER = (0.5, 0.25, 0.125, 0.0625, 0.03125)
+"""Shares of the winch's speed that are tried where no gain is certified."""
 
 Test = Callable[[float], bool]
 
@@ -35,21 +39,51 @@ class Range(NamedTuple):
 
 
 def cures(loop: Loop, task: Task) -> tuple[Problem, ...]:
-    """The range of ``control.law.slope_gain`` in which a positive rate is proved, or that there is none."""
-    found = _sampled_range(loop, task.motion)
-    if found is None:
-        return (_no_gain(task.motion),)
+    """What was proved to mend it: a ``control.law.slope_gain``, else a slower winch, else nothing."""
+    tried, rate = _sampled(loop, task.motion)
+    found = _sampled_range(loop, task.motion, tried, rate)
+    gain = _gain(loop, task, found) if found else None
+    slower = None if gain else _slower_winch(loop, task, float(tried[np.argmax(rate)]))
+    return tuple(filter(None, (gain, slower)))
+
+
+def _gain(loop: Loop, task: Task, found: Range) -> Problem | None:
+    """The gain next to the scenario's that is proved, if one is."""
 
     def certified(beta: float) -> bool:
         return attempt(loop._replace(beta=beta), task).certified
 
-    too_small = loop.beta < np.sqrt(found.low * min(found.high, 1e300))
+    too_small = loop.beta < np.sqrt(max(found.low, 1e-300) * min(found.high, 1e300))
     low = max(found.low, loop.beta) if too_small else found.low
     high = found.high if too_small else min(found.high, loop.beta)
     proved = Range(_proved_edge(certified, low, 1.0), _proved_edge(certified, high, -1.0))
-    if not proved.low < proved.high:
-        return (_no_gain(task.motion),)
-    return (_range(loop, task.motion, proved, too_small),)
+    if proved.low < proved.high and (proved.low > 0.0 if too_small else proved.high < np.inf):
+        return _range(loop, task.motion, proved, too_small)
+    inside = np.geomspace(max(found.low, 1e-4 * loop.beta), min(found.high, 1e4 * loop.beta), TRIED)
+    for beta in sorted(inside, key=lambda gain: abs(np.log(gain / loop.beta))):
+        if certified(gain := _rounded(float(beta), 1.0)):
+            return _single(loop, task.motion, gain)
+    return None
+
+
+def _slower_winch(loop: Loop, task: Task, best: float) -> Problem | None:
+    """The fastest of some slower winches that is proved, with the scenario's gain or else the one that decays best."""
+    for share in SLOWER:
+        for beta in (loop.beta, _rounded(best, 1.0)):
+            changes = _slowed(task.winch, share)
+            winch = task.winch.model_copy(update=changes)
+            edges = slab_edges(winch, float(task.edges[-1]))
+            slow = task._replace(winch=winch, edges=edges, motion=sampled(winch, loop.g, edges))
+            if changes and attempt(loop._replace(beta=beta), slow).certified:
+                return _winch(loop, task.motion, changes, beta)
+    return None
+
+
+def _slowed(winch: Winch, share: float) -> dict[str, float]:
+    """The keys of a winch that runs the same way at a share of its speed, rounded toward slower; none for a table."""
+    keys = {"speed": 1.0, "top_speed": 1.0, "acceleration": 2.0, "frequency": 1.0, "duration": -1.0}
+    found = {key: (getattr(winch, key, None), power) for key, power in keys.items()}
+    return {k: _rounded(v * share**p, -1.0 if p > 0.0 else 1.0) for k, (v, p) in found.items() if v is not None}
 
 
 def best_rate(loop: Loop, motion: Motion, *, enough: float = np.inf) -> float:
@@ -61,19 +95,27 @@ def best_rate(loop: Loop, motion: Motion, *, enough: float = np.inf) -> float:
     return -np.inf if found is None else float(rates(loop, motion, *found).min())
 
 
-def _sampled_range(loop: Loop, motion: Motion) -> Range | None:
-    """From the smallest to the largest gain with a positive rate at three samples of each slab."""
-    thin = Motion(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
-
-    def decays(beta: float) -> bool:
-        return best_rate(loop._replace(beta=beta), thin, enough=0.0) > 0.0
-
+def _sampled(loop: Loop, motion: Motion) -> tuple[np.ndarray, np.ndarray]:
+    """Gains over eight decades, m/s, and the rate at three samples of each slab, 1/s."""
     slowest_wave = float(np.sqrt(loop.m * (loop.g - motion.a.max()) / loop.rho))
     tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
-    good = [k for k in range(TRIED) if decays(tried[k])]
-    if not good:
+    return tried, np.array([best_rate(loop._replace(beta=beta), _thin(motion)) for beta in tried])
+
+
+def _thin(motion: Motion) -> Motion:
+    return Motion(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
+
+
+def _sampled_range(loop: Loop, motion: Motion, tried: np.ndarray, rate: np.ndarray) -> Range | None:
+    """From the smallest to the largest gain with a positive rate at these samples."""
+
+    def decays(beta: float) -> bool:
+        return best_rate(loop._replace(beta=beta), _thin(motion), enough=0.0) > 0.0
+
+    good = np.flatnonzero(rate > 0.0)
+    if not good.size:
         return None
-    first, last = good[0], good[-1]
+    first, last = int(good[0]), int(good[-1])
     low = _edge(decays, tried[first], tried[first - 1]) if first else 0.0
     high = _edge(decays, tried[last], tried[last + 1]) if last + 1 < TRIED else np.inf
     return Range(low, high)
@@ -105,24 +147,37 @@ def _rounded(gain: float, way: float) -> float:
 
 def _range(loop: Loop, motion: Motion, proved: Range, too_small: bool) -> Problem:
     low, high = (f"{gain:.{DIGITS}g}" for gain in proved)
-    edge = f"must be at least {low} m/s" if too_small else f"must not exceed {high} m/s"
+    edge, near = (f"must be at least {low} m/s", low) if too_small else (f"must not exceed {high} m/s", high)
     top = f" to {high} m/s" if np.isfinite(proved.high) else " m/s upward"
+    span = f"{low}{top}" if proved.low else f"up to {high} m/s"
     return Problem(
         "control.law.slope_gain",
         f"{loop.beta:g} m/s",
-        (f"{low}{top}" if proved.low else f"up to {high} m/s") + f", with {SLACK:.1%} of each bound left free",
+        f"proved at {near} m/s, by samples {span}, with {SLACK:.1%} of each bound left free",
         f"{_what_the_winch_does(motion)}, V is proved to decay only with such gains",
         f"slope_gain {edge} for {_what_the_winch_does(motion)}",
     )
 
 
-def _no_gain(motion: Motion) -> Problem:
+def _single(loop: Loop, motion: Motion, gain: float) -> Problem:
+    return Problem(
+        "control.law.slope_gain",
+        f"{loop.beta:g} m/s",
+        f"proved at {gain:.{DIGITS}g} m/s",
+        f"{_what_the_winch_does(motion)}, V is proved to decay with this gain and was not with yours",
+        f"slope_gain = {gain:.{DIGITS}g} m/s for {_what_the_winch_does(motion)}",
+    )
+
+
+def _winch(loop: Loop, motion: Motion, changes: dict[str, float], beta: float) -> Problem:
+    slower = " and ".join(f"winch.{key} = {value:g}" for key, value in changes.items())
+    gain = "" if beta == loop.beta else f", with control.law.slope_gain = {beta:g}"
     return Problem(
         "winch",
         _what_the_winch_does(motion),
-        "a gentler motion",
-        "no slope_gain can be certified for it",
-        "a slower winch, or one that speeds up and brakes more gently",
+        f"proved with {slower}{gain}",
+        "no slope_gain that was tried is certified for this motion",
+        f"a slower winch: {slower}{gain}",
     )
 
 

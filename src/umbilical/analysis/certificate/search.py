@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.analysis.certificate.conditions import Extent, extent, largest_cross, rates
+from umbilical.analysis.certificate.conditions import SLACK, Extent, extent, largest_cross, rates
 from umbilical.analysis.certificate.setting import Loop, Motion
 
 CANDIDATES, ROUNDS = 9, 20
@@ -31,8 +31,9 @@ def best_weights(
     best, found = -np.inf, (0.0, 0.0)
     for _ in range(ROUNDS):
         share = np.stack(np.meshgrid(*np.linspace(low, high, CANDIDATES).T, indexing="ij"))
-        vessel = room.least_vessel + share[1] * (widest - room.least_vessel)
-        cross = share[0] * largest_cross(motion, room, vessel)
+        # Neither at its edge: lam = 0 is no weight, and the proof refuses it.
+        vessel = room.least_vessel + np.minimum(share[1], 1.0 - SLACK) * (widest - room.least_vessel)
+        cross = np.maximum(share[0], SLACK) * largest_cross(motion, room, vessel)
         score = _score(loop, motion, room, cross, vessel, vessel_moves)
         at = np.unravel_index(np.argmax(score), score.shape)
         if score[at] > best:
