@@ -147,7 +147,11 @@ def test_picture_of_the_margins():
 
 def test_margins_as_text_name_the_worst_margin_and_three_modes(umbilical_command):
     done = umbilical_command("margins", "ringdown", "--grid", "8,12,16", "--lengths", "100")
-    assert "exact" in done.out
+    assert done.code == 0
+    assert done.out.startswith("ringdown: stable in linearised sampled operation\n")
+    coarse = umbilical_command("margins", "ringdown", "--grid", "4,5,6", "--lengths", "400")
+    assert coarse.code == 7
+    assert coarse.out.startswith("ringdown: UNRESOLVED, the grids differ from the exact cable at the longest length")
     assert "unstable eigenvalues of the closed matrix" in done.out
     assert "as counted" in done.out
     first = next(line for line in done.out.splitlines() if line.strip().startswith("100 m"))
@@ -173,7 +177,9 @@ def test_margins_on_the_command_line(umbilical_command):
     assert [part["length"] for part in found["lengths"]] == [100.0, 200.0]
     assert found["stable"] is True
     assert found["resolved"] is None
+    assert (found["verdict"], found["exit_code"], done.code) == ("HOLDS", 0, 0)
     assert umbilical_command("margins", "ringdown", "--lengths", "long").code == 2
+    assert umbilical_command("margins", "ringdown", "--grid", "").code == 2
     assert umbilical_command("design", "ringdown", "--limits", "noise=3").code == 2
 
 

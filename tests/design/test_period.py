@@ -13,6 +13,7 @@ from umbilical.analysis.limits import margins, scaled
 from umbilical.analysis.margins import judge
 from umbilical.analysis.nyquist import Stability, stability, sweep
 from umbilical.analysis.sampled import loop_response, sampled_loop
+from umbilical.cli.judging import conclusion
 from umbilical.design.grid import Difference, GridJudgement, check_count, judge_grid, on_grid, resolved, with_grid_echo
 from umbilical.design.margins import margins as report
 from umbilical.design.matrix import Counted, MatrixCheck, unstable_eigenvalues
@@ -122,6 +123,7 @@ def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
     assert not disagreeing.agrees
     assert MatrixCheck(8, 100, (Counted("as it is", 2, 0, 2),)).agrees
     assert not replace(found, check=disagreeing).resolved
+    assert conclusion(replace(found, check=disagreeing)).decision == "UNRESOLVED"
 
 
 @pytest.mark.parametrize(("length", "damping"), [(100.0, 1.0), (1000.0, 0.4), (3000.0, 10.0)])

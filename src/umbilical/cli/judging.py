@@ -66,8 +66,8 @@ def margins(
         check_target(plot, PICTURES, force=force)
     from umbilical.design.margins import margins as compute
 
-    elements = [round(number) for number in _numbers(grid) or [] if number] if grid else GRIDS
-    finest = 0 if grid else FINEST
+    elements = GRIDS if grid is None else [round(number) for number in _numbers(grid, "--grid") or [] if number]
+    finest = FINEST if grid is None else 0
     with bar("margins") as advance:
         report = compute(
             chosen, _numbers(lengths), operating_thrust, elements=elements, finest=finest, progress=advance
@@ -87,7 +87,7 @@ def conclusion(report: MarginReport) -> Conclusion:
     return Conclusion("HOLDS" if report.stable else "DOES_NOT_HOLD", headline)
 
 
-def _numbers(words: str | None) -> list[float] | None:
+def _numbers(words: str | None, option: str = "--lengths") -> list[float] | None:
     """Comma-separated numbers.
 
     Raises:
@@ -98,7 +98,7 @@ def _numbers(words: str | None) -> list[float] | None:
     try:
         return [float(word) for word in words.split(",")]
     except ValueError as error:
-        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint="--lengths") from error
+        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint=option) from error
 
 
 def _draw(report: MarginReport, plot: Path | None, force: bool) -> dict[str, str]:
