@@ -87,7 +87,7 @@ def margins(
     longest = max(found, key=lambda judgement: judgement.length)
     checked = done(check_count(scenario, longest, elements)) if elements else None
     grids = [done(judge_grid(scenario, longest, number)) for number in elements]
-    # Where both are unstable they differ in how many waves a grid carries, and a finer one takes minutes to differ less.
+    # Where both are unstable they differ in how many waves a grid carries; a finer one costs much and differs, too.
     while grids and 2 * grids[-1].elements <= finest and not resolved(grids) and (longest.stable or grids[-1].margins):
         grids.append(judge_grid(scenario, longest, 2 * grids[-1].elements))
     return MarginReport(scenario, thrust, found, tuple(grids), checked)
