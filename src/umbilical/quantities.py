@@ -34,9 +34,10 @@ PARAMETERS: dict[str, Quantity] = {
     "duration":            Quantity("s", "t", "length of the simulated time", "Table 2"),
     # cable, payload, environment
     "line_density":        Quantity("kg/m", r"\rho", "line density of the cable", "Table 2", "rho_i is the effectiveness of motor i"),
-    "wet_line_density":    Quantity("kg/m", "", "line density that loads the tension (0: constant tension)"),
+    "wet_line_density":    Quantity("kg/m", "", "weight of a metre of cable in water over g"),
     "cable_damping":       Quantity("N s/m2", "c", "viscous damping per metre of cable", "(6)", "Table 1 swaps c and c_tip"),
     "payload_mass":        Quantity("kg", "m", "mass of the ROV", "Table 2"),
+    "wet_weight":          Quantity("N", "W", "weight of the ROV in water"),
     "payload_damping":     Quantity("N s/m", r"c_{tip}", "viscous damping of the ROV", "(8)", "Table 1 swaps c and c_tip"),
     "gravity":             Quantity("m/s2", "g", "gravitational acceleration", "Table 2"),
     # winch

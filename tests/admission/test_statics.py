@@ -34,7 +34,7 @@ UNCONTROLLED = {"control.law": {"kind": "none"}}
 def test_a_uniform_load_and_a_force_have_closed_forms() -> None:
     scenario = umbilical.load("paper", DEEP | UNCONTROLLED | {"environment.cable_load": along(constant(5.0))})
     gravity = scenario.environment.gravity
-    top = (scenario.payload.mass + 3000.0 * scenario.cable.hanging_density) * gravity
+    top = (scenario.payload.mass + 3000.0 * scenario.cable.line_density) * gravity
     assert of(scenario) == (pytest.approx(5.0 * 3000.0 / top, rel=1e-9), 0.0, True)
     pushed = umbilical.load("paper", DEEP | UNCONTROLLED | {"environment.payload_force": constant(-400.0)})
     assert of(pushed) == (pytest.approx(400.0 / (500.0 * gravity), rel=1e-9), 1.0, True)

@@ -17,7 +17,7 @@ from umbilical.analysis.certificate.loads import Loads, jumps, loads_of, rate, s
 from umbilical.analysis.certificate.lyapunov import cable_function, loads_along
 from umbilical.analysis.certificate.setting import loop_of
 from umbilical.plant import signals, winch
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import tension
 from umbilical.scenario.environment import Environment
 from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov
 
@@ -161,7 +161,7 @@ def test_ranges_hold_the_winch_and_reach_its_worst_instant(law: dict[str, Any]) 
         assert (span.low.min(axis=1)[slab] <= values).all()
         assert (values <= span.high.max(axis=1)[slab]).all()
     x = np.linspace(0.0, 1.0, 2001) * motion.length[::10, None]
-    pull = tension(motion.length[::10, None] - x, loop.g - motion.acceleration[::10, None], loop.m, loop.hanging)
+    pull = tension(motion.length[::10, None] - x, loop.g - motion.acceleration[::10, None], loop.hanging)
     left = pull - loop.rho * (weights.vessel + weights.cross * x) ** 2
     largest = np.sqrt(2.0 * np.trapezoid(1.0 / left, x, axis=1).max())
     assert largest <= certificate.reach[1] <= 1.01 * largest

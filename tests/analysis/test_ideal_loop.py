@@ -30,26 +30,27 @@ RANDOM_LOOPS = 200
 PAPER = loop_of(fixed(5.0))
 
 
-def held(length: float) -> Motion:
+def held(length: float, gravity: float) -> Motion:
     zero = np.zeros((1, 1))
-    return Motion(zero, np.full((1, 1), length), zero, zero, zero)
+    return Motion(zero, np.full((1, 1), length), zero, zero, zero + gravity, zero)
 
 
 def certified(loop: Loop, length: float) -> float:
     """Best rate, 1/s; minus infinity where there is none."""
-    motion = held(length)
+    motion = held(length, loop.g)
     found = best_weights(loop, motion)
     return -np.inf if found is None else min(float(rates(loop, motion, *found).min()), rate_limit(loop))
 
 
 def random_loops(count: int) -> Iterator[tuple[Loop, float, float]]:
     """Gains, cables, ROVs and lengths over decades with their certified rate; those without one are passed over."""
-    dice = np.random.default_rng(7)
+    dice, water = np.random.default_rng(7), np.random.default_rng(8)
     while count:
         rho, m, length = dice.uniform(0.5, 5.0), 10.0 ** dice.uniform(1.5, 3.5), dice.uniform(50.0, 2000.0)
         beta = np.sqrt(m * 9.81 / rho) * 10.0 ** dice.uniform(-3.0, 1.0)
         c, k_a, k_s, vs = 10.0 ** dice.uniform([-4.0, -1.0, -1.0, -1.0], [-0.5, 2.0, 1.5, 1.0])
-        loop = Loop(rho, rho * dice.uniform(0.0, 1.0), m, 9.81, c, beta, m * k_a, k_s, vs)
+        wet, weight = rho * dice.uniform(0.0, 1.0), m * 9.81 * water.uniform(0.1, 1.0)
+        loop = Loop(rho, m, 9.81, wet, weight, c, beta, m * k_a, k_s, vs)
         rate = certified(loop, length)
         if rate > 0.0:
             count -= 1
@@ -58,7 +59,7 @@ def random_loops(count: int) -> Iterator[tuple[Loop, float, float]]:
 
 def test_constant_tension_in_closed_form() -> None:
     """``lam = ln|R|/(2 tau) + i k pi/tau``, ``R = (beta - c_l)/(beta + c_l)``, without damping."""
-    loop = PAPER._replace(hanging=0.0, c=0.0, beta=10.0)
+    loop = PAPER._replace(wet=0.0, c=0.0, beta=10.0)
     modes = cable_modes(loop, 500.0)
     travel = 500.0 / 50.0
     np.testing.assert_allclose(modes.real, np.log(40.0 / 60.0) / (2.0 * travel), rtol=1e-9)
@@ -68,11 +69,11 @@ def test_constant_tension_in_closed_form() -> None:
 def test_a_heavy_payload_is_the_limit_of_constant_tension() -> None:
     """Bessel functions of huge arguments, which nearly cancel, against hyperbolic ones."""
     heavy = PAPER._replace(m=1e7, k_a=1e9)
-    assert energy_rate(heavy, 500.0) == pytest.approx(energy_rate(heavy._replace(hanging=0.0), 500.0), rel=1e-3)
+    assert energy_rate(heavy, 500.0) == pytest.approx(energy_rate(heavy._replace(wet=0.0), 500.0), rel=1e-3)
 
 
 def test_gain_of_the_wave_speed_leaves_no_mode_at_constant_tension() -> None:
-    loop = PAPER._replace(hanging=0.0, c=0.0, beta=50.0)
+    loop = PAPER._replace(wet=0.0, c=0.0, beta=50.0)
     assert highest_modes_real_part(loop, 500.0) == -np.inf
 
 
@@ -125,7 +126,7 @@ def test_without_its_conditions_it_would() -> None:
     """Negative control: twice what K1 and K2 allow promises more than the loop does, on many of the same loops."""
     broken = 0
     for loop, length, _ in random_loops(20):
-        motion = held(length)
+        motion = held(length, loop.g)
         room = extent(loop, motion)
         cross = 4.0 * largest_cross(motion, room, 0.0)
         broken += min(float(rates(loop, motion, cross, 0.0).min()), rate_limit(loop)) > energy_rate(loop, length)
@@ -134,7 +135,7 @@ def test_without_its_conditions_it_would() -> None:
 
 def test_boundary_weight_carries_its_rate() -> None:
     """K6 at equality less its slack."""
-    motion, rate = held(500.0), 0.01
+    motion, rate = held(500.0, PAPER.g), 0.01
     eta = boundary_weight(PAPER, motion, rate)
     assert 2.0 * (eta * PAPER.k_a - 5000.0 / (2.0 * PAPER.beta)) / (eta * PAPER.m) >= rate
 

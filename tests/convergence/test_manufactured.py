@@ -20,8 +20,8 @@ def test_case(case: Case) -> None:
 
 @pytest.mark.parametrize(
     "pr",
-    [Problem(4.0), Problem(-4.0), Problem(3.0, steady=True), Problem(3.0, hanging_density=1.3, vessel=0.4)],
-    ids=["growing", "shrinking", "steady winch", "light cable"],
+    [Problem(4.0), Problem(-4.0), Problem(3.0, steady=True), Problem(3.0, weight=400.0, cable_weight=13.0, vessel=0.4)],
+    ids=["growing", "shrinking", "steady winch", "in water"],
 )
 def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
     """(6) and (8) applied to y by sympy, at points and instants of no meaning."""
@@ -32,7 +32,8 @@ def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
     angle = exact.WAVENUMBER * x / length
     p, q = pr.start - (1 - sympy.cos(2 * t)) / 3, pr.vessel * (1 - sympy.cos(1.3 * t))
     y = p * sympy.sin(angle) + q * sympy.cos(angle)
-    tension = (pr.mass + pr.hanging_density * (length - x)) * (pr.gravity - acceleration)
+    below = length - x
+    tension = pr.weight + pr.cable_weight * below - (pr.mass + pr.line_density * below) * acceleration
 
     def material(q: sympy.Expr) -> sympy.Expr:
         return sympy.diff(q, t) + speed * sympy.diff(q, x)

@@ -61,7 +61,7 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "jumps that nobody publishes": (broken.jumps_that_nobody_publishes, ("pulses*",)),
     "a force nobody ordered": (UNORDERED, ("superposition*", "mirror*", "shift*", "other units")),
     "motors that never quite die": (broken.motors_that_never_quite_die, ("all motors dead",)),
-    "tension that never gets constant": (another_scenario(broken.tension_that_never_gets_constant), ("rho*",)),
+    "tension that never gets constant": (another_scenario(broken.tension_that_never_gets_constant), ("w -> 0*",)),
     "a spectrum of both sides": (broken_sea.two_sided_spectrum, ("sea, wave spectra", "sea, screening")),
     "energy for amplitude": (broken_sea.energy_for_amplitude, ("sea, wave spectra",)),
     "degrees for radians": (broken_sea.degrees_for_radians, ("sea, screening",)),
@@ -110,7 +110,7 @@ TERMS: dict[str, tuple[Break, set[str]]] = {
     "the vessel's motion": (another_scenario(broken.twice_the_vessels_motion), {"vessel still"}),
     "the cable's damping": (another_scenario(broken.twice("cable.damping")), {"cable undamped"}),
     "the ROV's damping": (another_scenario(broken.twice("payload.damping")), {"ROV undamped"}),
-    "the cable's weight": (another_scenario(broken.twice("cable.wet_line_density")), {"cable without weight"}),
+    "the cable's weight": (another_scenario(broken.half("cable.wet_line_density")), {"cable without weight"}),
 }
 """What is wrong, and the rows of the manufactured solution, term by term, that do not notice."""
 

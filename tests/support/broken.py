@@ -39,7 +39,7 @@ def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
     """Half the mass under twice the gravity pulls as before and weighs half: T is right, m is not."""
     return {
         "payload.mass": 0.5 * scenario.payload.mass,
-        "cable.wet_line_density": 0.5 * scenario.cable.hanging_density,
+        "cable.wet_line_density": 0.5 * scenario.cable.line_density,
         "environment.gravity": 2.0 * scenario.environment.gravity,
     }
 
@@ -54,9 +54,14 @@ def nothing(patch: pytest.MonkeyPatch) -> None:
     """The model as it is."""
 
 
-def twice(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
+def twice(key: str, factor: float = 2.0) -> Callable[[Scenario], Mapping[str, Any]]:
     """A number of the scenario."""
-    return lambda scenario: {key: 2.0 * look_up(scenario.to_dict(), key)}
+    return lambda scenario: {key: factor * look_up(scenario.to_dict(), key)}
+
+
+def half(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
+    """A number of the scenario."""
+    return twice(key, 0.5)
 
 
 def a_trace_of_damping(scenario: Scenario) -> Mapping[str, Any]:
@@ -90,7 +95,7 @@ def a_fault_that_ends_late(scenario: Scenario) -> Mapping[str, Any]:
 
 
 def tension_that_never_gets_constant(scenario: Scenario) -> Mapping[str, Any]:
-    return {"cable.wet_line_density": scenario.cable.hanging_density or 1e-3}
+    return {"cable.wet_line_density": scenario.cable.wet_line_density or 1e-3}
 
 
 def a_rov_that_depends_on_the_grid(scenario: Scenario) -> Mapping[str, Any]:

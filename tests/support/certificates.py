@@ -33,10 +33,13 @@ def matrices(
 ) -> tuple[np.ndarray, np.ndarray]:
     """N and M of docs/certificates.md at one point, gam = 1; ``motion``: l, v, a, a'/(g - a)."""
     length, speed, acceleration, jerk = motion
-    rho, c, net = loop.rho, loop.c, loop.g - acceleration
-    pull = (loop.m + loop.hanging * (length - x)) * net
+    rho, c, below = loop.rho, loop.c, length - x
+    weight = loop.m * loop.g if loop.weight is None else loop.weight
+    line_weight = (rho if loop.wet is None else loop.wet) * loop.g
+    pull = weight + line_weight * below - (loop.m + rho * below) * acceleration
+    changing = (loop.m + rho * below) * (loop.g - acceleration)
     q = cross * x + vessel
     n = np.array([[rho, rho * q], [rho * q, pull]])
     side = 0.5 * (c * q - cross * rho * speed)
-    far = 0.5 * cross * pull + 0.5 * q * loop.hanging * net + 0.5 * pull * jerk
+    far = 0.5 * cross * pull + 0.5 * q * (line_weight - rho * acceleration) + 0.5 * changing * jerk
     return n, np.array([[c + 0.5 * cross * rho, side], [side, far]])

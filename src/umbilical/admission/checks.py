@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umbilical.admission import controller, equipment, inherited, motion, sampling, statics, steps, timeline
+from umbilical.admission import controller, equipment, inherited, motion, sampling, statics, steps, timeline, weights
 
 CHECKS = (
     timeline.grid_of_time,
@@ -16,6 +16,9 @@ CHECKS = (
     timeline.smooth_winch,
     timeline.smooth_shape,
     timeline.jumps_after_the_end,
+    weights.cable_in_water,
+    weights.payload_in_water,
+    weights.believed_in_water,
     motion.length,
     motion.tension,
     motion.wave_speed,

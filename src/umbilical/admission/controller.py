@@ -9,6 +9,7 @@ from typing import NamedTuple
 from umbilical.admission.findings import Finding, Notice, amount
 from umbilical.errors import Problem
 from umbilical.plant import winch as laws
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.control import AdaptiveAllocation, BoundaryLaw, Control, NoControl, ProportionalDerivative
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Motor, Payload
@@ -180,7 +181,8 @@ def grid_near_the_payload(
     grid: Grid,
 ) -> Iterator[Finding]:
     """Waves too short for the grid are damped where a real cable sends them back from the vessel."""
-    speed = sqrt(payload.mass * environment.gravity / cable.line_density)
+    pull = tension(0.0, net_gravity(environment.gravity), hanging_of(cable, payload, environment))
+    speed = sqrt(pull / cable.line_density)
     if isinstance(control.law, BoundaryLaw) and control.law.slope_gain >= _FELT_FROM * speed:
         longest = float(laws.evaluate(winch, [0.0, duration]).length.max())
         band = 2.0 * pi * speed * grid.elements / longest

@@ -13,6 +13,7 @@ from umbilical.admission.timeline import signals_of_the_environment, tables_of_t
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.relations.tension import hanging_of, net_gravity, slack_acceleration, smallest_tension
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.signals import Pulse, Step
@@ -64,18 +65,23 @@ def length(winch: Winch, duration: float) -> Iterator[Finding]:
             )
 
 
-def tension(winch: Winch, duration: float, environment: Environment) -> Iterator[Finding]:
-    """The tension T = (m + rho (l - x))(g - a) stays above 0: the winch never outruns free fall."""
+def tension(
+    winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
+) -> Iterator[Finding]:
+    """The tension stays above 0 all along the cable: the winch never outruns the fall of what hangs on it."""
     if not (sampled := sampled_winch(winch, duration)):
         return
     t, motion = sampled
-    worst, gravity = int(np.argmax(motion.acceleration)), environment.gravity
-    if not motion.acceleration[worst] < gravity:
+    hung = hanging_of(cable, payload, environment)
+    bound = slack_acceleration(_possible(motion.length), environment.gravity, hung)
+    worst = int(np.argmax(motion.acceleration - bound))
+    if not motion.acceleration[worst] < bound[worst]:
         yield Problem(
             _ACCELERATION_KEY.get(winch.law, "winch"),
             f"an acceleration of {amount(motion.acceleration[worst], 'm/s2')} at {t[worst]:.6g} s",
-            f"below gravity, {gravity:g} m/s2",
-            "the tension (m + rho (l - x)) (g - a) must stay above 0: a cable cannot push",
+            f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
+            "the tension, the weight below a point less its mass times the acceleration, must stay above 0: "
+            "a cable cannot push",
             "pay out more gently",
         )
 
@@ -83,22 +89,27 @@ def tension(winch: Winch, duration: float, environment: Environment) -> Iterator
 def wave_speed(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
-    """The winch stays slower than the waves, which are slowest at the ROV."""
+    """The winch stays slower than the waves, which are slowest where the tension is smallest."""
     if not (sampled := sampled_winch(winch, duration)):
         return
     t, motion = sampled
-    net = np.maximum(environment.gravity - motion.acceleration, 0.0)
-    slowest = np.sqrt(payload.mass * net / cable.line_density)
+    net, hung = net_gravity(environment.gravity, motion.acceleration), hanging_of(cable, payload, environment)
+    slowest = np.sqrt(np.maximum(smallest_tension(_possible(motion.length), net, hung), 0.0) / cable.line_density)
     ratio = np.abs(motion.speed) - slowest
     worst = int(np.argmax(ratio))
-    if ratio[worst] >= 0.0 and net[worst] > 0.0:
+    if ratio[worst] >= 0.0 and slowest[worst] > 0.0:
         yield Problem(
             _SPEED_KEY.get(winch.law, "winch"),
             f"a speed of {amount(motion.speed[worst], 'm/s')} at {t[worst]:.6g} s",
-            f"slower than the waves, {slowest[worst]:.6g} m/s at the ROV",
+            f"slower than the waves, {slowest[worst]:.6g} m/s where the tension is smallest",
             "waves travel at sqrt(T/rho); a cable that moves faster can tell its ends nothing",
             "a slower winch",
         )
+
+
+def _possible(length: np.ndarray) -> np.ndarray:
+    """Lengths within their own bounds: one beyond them has its own problem."""
+    return np.clip(length, _SHORTEST, _LONGEST)
 
 
 def vessel_is_continuous(environment: Environment) -> Iterator[Finding]:

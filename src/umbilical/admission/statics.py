@@ -14,7 +14,7 @@ from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
 from umbilical.plant.exogenous import profile
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.control import BoundaryLaw, Control, ProportionalDerivative
 from umbilical.scenario.environment import Environment, InitialShape
 from umbilical.scenario.hardware import Cable, Payload
@@ -79,8 +79,8 @@ def steady_slope(
     t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
     motion = laws.evaluate(winch, t)
     length = motion.length[:, None]
-    net = (environment.gravity - motion.acceleration)[:, None]
-    pull = tension(length * (1.0 - sigma), net, payload.mass, cable.hanging_density)
+    net = net_gravity(environment.gravity, motion.acceleration)[:, None]
+    pull = tension(length * (1.0 - sigma), net, hanging_of(cable, payload, environment))
     below = length * _from_below(_loads(environment, t, sigma), sigma)
     carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
     slopes = (_left_at_the_payload(environment, control, t, pull[:, -1], carried, alone)[:, None] + below) / pull

@@ -12,6 +12,7 @@ import numpy as np
 from umbilical.analysis.discrete import Discrete
 from umbilical.control.cascade import BOUNDARY, NONE, PD, Motors, Outer
 from umbilical.relations.formulas import MotorConstants
+from umbilical.relations.tension import net_gravity, tension
 
 READINGS = 4
 """y(l), y_x(l) and, where they are granted, Dy/Dt and D(y_x)/Dt."""
@@ -40,7 +41,7 @@ def outer_law(outer: Outer) -> Discrete:
     assert outer.law == BOUNDARY
     (damping_gain, beta), mass, d = outer.gains, outer.payload_mass, outer.disturbance
     error = velocity + beta * slope
-    known = mass * outer.gravity * slope + outer.payload_damping * velocity
+    known = tension(0.0, net_gravity(outer.gravity), outer.hanging) * slope + outer.payload_damping * velocity
     drive = d.coupling * error + known - command - d.gain * mass * velocity
     phi = d.decay * phi + (1.0 - d.decay) * drive
     estimate = (phi + d.gain * mass * velocity) * d.enabled

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, interpolation_row
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.scenario import Scenario
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(DEGREE + 1)
@@ -38,9 +38,11 @@ def energy(
         payout_acceleration: of the winch, m/s2.
     """
     elements = slopes.shape[2]
-    net, over = scenario.environment.gravity - payout_acceleration, length[:, None, None]
+    net = net_gravity(scenario.environment.gravity, payout_acceleration)[:, None, None]
+    hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
+    over = length[:, None, None]
     sigma = (np.arange(elements) + (_POINTS[:, None] + 1.0) / 2.0) / elements
-    pull = tension((1.0 - sigma) * over, net[:, None, None], scenario.payload.mass, scenario.cable.hanging_density)
+    pull = tension((1.0 - sigma) * over, net, hung)
     density = scenario.cable.line_density * (_TO_POINTS @ velocities) ** 2
     density += pull * (_TO_POINTS @ slopes / over) ** 2
     along = np.einsum("spe,p->s", density, _WEIGHTS) * length / (2.0 * elements)

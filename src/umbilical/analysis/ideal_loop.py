@@ -7,11 +7,13 @@ shape is ``I0(z) K0(z_top) - K0(z) I0(z_top)`` with ``z = 2 sqrt((rho lam^2 + c 
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from umbilical.analysis.certificate.setting import Loop
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import net_gravity, tension, tension_gain
 
 NODES = 60
 """Chebyshev points of the matrix whose eigenvalues Newton's method starts from."""
@@ -44,7 +46,7 @@ def highest_modes_real_part(loop: Loop, length: float) -> float:
 
     tau is the time a wave takes from end to end.
     """
-    foot, top = (np.sqrt(tension(s, loop.g, loop.m, loop.hanging) / loop.rho) for s in (0.0, length))
+    foot, top = (np.sqrt(_pull(loop, s) / loop.rho) for s in (0.0, length))
     travel = 2.0 * length / (foot + top)  # c^2 is a line of s
     with np.errstate(divide="ignore"):
         return float(np.log(abs((foot - loop.beta) / (foot + loop.beta))) / (2.0 * travel) - loop.c / (2.0 * loop.rho))
@@ -63,9 +65,9 @@ def characteristic(loop: Loop, length: float, lam: complex) -> complex:
     """``lam Y + beta Y_x`` at the ROV for the shape Y that vanishes at the vessel: an entire function of lam."""
     from scipy.special import ive, kve
 
-    foot, top = (tension(s, loop.g, loop.m, loop.hanging) for s in (0.0, length))
+    foot, top = (_pull(loop, s) for s in (0.0, length))
     inertia = np.sqrt(loop.rho * lam * lam + loop.c * lam + 0j)
-    rise, wave = loop.hanging * loop.g, inertia / np.sqrt(foot)  # Y_s = wave dY/dz
+    rise, wave = tension_gain(1.0, net_gravity(loop.g), loop.hanging), inertia / np.sqrt(foot)  # Y_s = wave dY/dz
     if rise == 0.0:
         return complex(lam * np.sinh(wave * length) / wave + loop.beta * np.cosh(wave * length))
     z, z_top = (2.0 * inertia * np.sqrt(pull) / rise for pull in (foot, top))
@@ -76,8 +78,13 @@ def characteristic(loop: Loop, length: float, lam: complex) -> complex:
     return complex(lam * shape - loop.beta * wave * slope)
 
 
+def _pull(loop: Loop, s: Any) -> Any:
+    """The tension s above the ROV with the winch stopped, N."""
+    return tension(s, net_gravity(loop.g), loop.hanging)
+
+
 def _travel(loop: Loop, length: float) -> float:
-    foot, top = (np.sqrt(tension(s, loop.g, loop.m, loop.hanging) / loop.rho) for s in (0.0, length))
+    foot, top = (np.sqrt(_pull(loop, s) / loop.rho) for s in (0.0, length))
     return float(2.0 * length / (foot + top))
 
 
@@ -97,7 +104,7 @@ def _matrix(loop: Loop, length: float) -> np.ndarray:
     """Rates of y (all nodes but the vessel's) and Dy/Dt (inner nodes) by Chebyshev collocation in s."""
     points, derivative = _chebyshev(NODES)
     s, d = 0.5 * length * (1.0 + points), derivative * 2.0 / length  # s[0] = l at the vessel, s[-1] = 0
-    pull = tension(s, loop.g, loop.m, loop.hanging)
+    pull = _pull(loop, s)
     strain = (d @ (pull[:, None] * d) / loop.rho)[1:-1, 1:]
     count = NODES - 1
     matrix = np.zeros((2 * count + 1, 2 * count + 1))

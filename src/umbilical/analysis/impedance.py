@@ -1,10 +1,10 @@
 """The hanging cable of frozen length between vessel and ROV, exactly and without a grid.
 
-With s = l - x the distance from the ROV and mu = m + rho_h s the mass below a point (rho_h hangs, rho moves),
-the cable's equation at a complex frequency p is Bessel's::
+With s = l - x the distance from the ROV, at which the tension is ``T = T_l + w s``, the cable's equation at a complex
+frequency p is Bessel's::
 
-    (T Y_s)_s = (rho p^2 + c p) Y,   T = g mu
-    Y = A H1(X)/H1(X_l) + B H2(X)/H2(X_l),   X = -2j sqrt((rho p^2 + c p) mu/g)/rho_h
+    (T Y_s)_s = (rho p^2 + c p) Y
+    Y = A H1(X)/H1(X_l) + B H2(X)/H2(X_l),   X = -2j sqrt((rho p^2 + c p) T)/w
 
 with the Hankel functions of order 0: H1 comes down to the ROV, H2 goes up from it. The vessel end y = 0 sends
 back what arrives there, A = echo * B, so that at the ROV::
@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from umbilical.relations.tension import hanging_of, net_gravity, tension, tension_gain
 from umbilical.scenario.scenario import Scenario
 
 
@@ -29,30 +30,31 @@ class HangingCable:
     """Cable and ROV at a length that does not change.
 
     Attributes:
-        line_density, hanging_density: mass that moves, and mass that loads the tension, kg/m.
+        line_density: kg/m.
         damping: N s/m2.
         payload_mass, payload_damping: the ROV, kg and N s/m.
-        gravity: m/s2.
+        tip_tension: at the ROV, N.
+        weight: of a metre of cable, which is what the tension gains on it, N/m.
         length: m.
     """
 
     line_density: float
-    hanging_density: float
     damping: float
     payload_mass: float
     payload_damping: float
-    gravity: float
+    tip_tension: float
+    weight: float
     length: float
-
-    @property
-    def tip_tension(self) -> float:
-        """Tension at the ROV, N."""
-        return self.payload_mass * self.gravity
 
     @property
     def tip_wave_speed(self) -> float:
         """c_l = sqrt(T_l/rho), m/s."""
         return float(np.sqrt(self.tip_tension / self.line_density))
+
+    @property
+    def top_wave_speed(self) -> float:
+        """c_0 = sqrt(T_0/rho) at the vessel, m/s."""
+        return float(np.sqrt((self.tip_tension + self.weight * self.length) / self.line_density))
 
     @property
     def tip_impedance(self) -> float:
@@ -62,9 +64,8 @@ class HangingCable:
     @property
     def round_trip(self) -> float:
         """Time a wave takes from the ROV to the vessel and back, s: twice ``int dx/sqrt(T/rho)``."""
-        top = self.payload_mass + self.hanging_density * self.length
-        roots = np.sqrt(top) + np.sqrt(self.payload_mass)
-        return float(4.0 * np.sqrt(self.line_density / self.gravity) * self.length / roots)
+        roots = np.sqrt(self.tip_tension + self.weight * self.length) + np.sqrt(self.tip_tension)
+        return float(4.0 * np.sqrt(self.line_density) * self.length / roots)
 
 
 class Waves(NamedTuple):
@@ -83,13 +84,14 @@ class Waves(NamedTuple):
 def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
     """Cable and ROV of a scenario at a length, m, the winch standing still."""
     cable, payload = scenario.cable, scenario.payload
+    hung, net = hanging_of(cable, payload, scenario.environment), net_gravity(scenario.environment.gravity)
     return HangingCable(
         line_density=cable.line_density,
-        hanging_density=cable.hanging_density,
         damping=cable.damping,
         payload_mass=payload.mass,
         payload_damping=payload.damping,
-        gravity=scenario.environment.gravity,
+        tip_tension=tension(0.0, net, hung),
+        weight=tension_gain(1.0, net, hung),
         length=length,
     )
 
@@ -97,20 +99,20 @@ def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
 def waves(cable: HangingCable, p: np.ndarray) -> Waves:
     """Echo and impedances at complex frequencies p with a positive imaginary part, 1/s.
 
-    >>> cable = HangingCable(2.0, 0.0, 0.0, 500.0, 0.0, 10.0, 400.0)  # constant tension: a pure delay
+    >>> cable = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 0.0, 400.0)  # constant tension: a pure delay
     >>> bool(np.isclose(waves(cable, np.array([1j])).echo[0], -np.exp(-1j * 2 * 400 / 50)))
     True
     """
     p = np.asarray(p, dtype=complex)
     gamma = wave_number(cable, p)
-    if cable.hanging_density == 0.0:
+    if cable.weight == 0.0:
         slope = cable.tip_tension * gamma
         return Waves(-np.exp(-2.0 * gamma * cable.length), slope, -slope)
     from scipy.special import hankel1e, hankel2e
 
     # X at the ROV and X at the vessel less X at the ROV, which must not be a difference of large numbers.
-    scale = 2.0 * cable.payload_mass / cable.hanging_density
-    ratio = cable.hanging_density * cable.length / cable.payload_mass
+    scale = 2.0 * cable.tip_tension / cable.weight
+    ratio = cable.weight * cable.length / cable.tip_tension
     stretch = ratio / (np.sqrt(1.0 + ratio) + 1.0)
     tip = -1j * gamma * scale
     path = tip * stretch
@@ -126,8 +128,8 @@ def wave_number(cable: HangingCable, p: np.ndarray) -> np.ndarray:
 
 
 def upward_asymptote(cable: HangingCable, p: np.ndarray) -> np.ndarray:
-    """``up`` of :func:`waves` far above the first mode, N/m: ``-T (gamma + rho_h/(4 m))``, next term of order 1/p."""
-    taper = cable.hanging_density / (4.0 * cable.payload_mass)
+    """``up`` of :func:`waves` far above the first mode, N/m: ``-(T_l gamma + w/4)``, next term of order 1/p."""
+    taper = cable.weight / (4.0 * cable.tip_tension)
     return -cable.tip_tension * (wave_number(cable, p) + taper)
 
 

@@ -133,7 +133,7 @@ def usual_thrust(scenario: Scenario) -> float:
     At no thrust at all a propeller has none to first order, and the linearised loop would be open.
     """
     force = signals.evaluate(scenario.environment.payload_force, np.linspace(0.0, scenario.duration, INSTANTS))
-    pull = USUAL_SLOPE * scenario.payload.mass * scenario.environment.gravity
+    pull = USUAL_SLOPE * hanging_cable(scenario, 1.0).tip_tension
     return max(abs(float(np.mean(force))), pull)
 
 

@@ -38,7 +38,7 @@ from umbilical.control.observers.high_gain import (
 from umbilical.control.outer.boundary import boundary_error, boundary_thrust
 from umbilical.control.outer.pd import pd_thrust
 from umbilical.frames import Frame, integer, part, real
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import Hanging, hanging, net_gravity, tension
 from umbilical.scenario.control import BoundaryLaw, MotorLoop, ProportionalDerivative
 from umbilical.scenario.scenario import Scenario
 
@@ -54,6 +54,7 @@ class Outer(NamedTuple):
     payload_mass: float
     payload_damping: float
     gravity: float
+    hanging: Hanging
     velocity_observer: HighGain
     slope_observer: HighGain
     disturbance: Disturbance
@@ -121,6 +122,8 @@ def make_settings(scenario: Scenario) -> CascadeSettings:
 def _outer_settings(scenario: Scenario, period: float) -> Outer:
     control, nominal = scenario.control, scenario.control.nominal
     law, gains, ideal = NONE, (0.0, 0.0), False
+    mass = _believed(nominal.payload_mass, scenario.payload.mass)
+    gravity = _believed(nominal.gravity, scenario.environment.gravity)
     match control.law:
         case ProportionalDerivative() as pd:
             law, gains, ideal = PD, (pd.position_gain, pd.velocity_gain), pd.velocity == "sensor"
@@ -130,9 +133,10 @@ def _outer_settings(scenario: Scenario, period: float) -> Outer:
         law,
         gains,
         ideal,
-        _believed(nominal.payload_mass, scenario.payload.mass),
+        mass,
         _believed(nominal.payload_damping, scenario.payload.damping),
-        _believed(nominal.gravity, scenario.environment.gravity),
+        gravity,
+        hanging(mass, 0.0, gravity, nominal.payload_wet_weight or scenario.payload.wet_weight),
         make_high_gain(control.velocity_observer, period),
         make_high_gain(control.slope_observer, period),
         make_disturbance(control.disturbance_observer, period),
@@ -221,7 +225,7 @@ def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: De
         out.thrust_command = pd_thrust(s.gains[0], s.gains[1], tip.tip_displacement, velocity)
         return
     error = boundary_error(s.gains[1], velocity, tip.tip_slope)
-    pull = tension(0.0, s.gravity - readings.winch[0].payout_acceleration, s.payload_mass, 0.0)
+    pull = tension(0.0, net_gravity(s.gravity, readings.winch[0].payout_acceleration), s.hanging)
     known = pull * tip.tip_slope + s.payload_damping * velocity
     if advance:
         held = out.thrust_command

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.impedance import waves
+from umbilical.analysis.impedance import hanging_cable, waves
 from umbilical.analysis.limits import Margins, margins
 from umbilical.analysis.margins import Judgement
 from umbilical.analysis.nyquist import Stability, Sweep, stability
@@ -95,9 +95,8 @@ def check_count(scenario: Scenario, exact: Judgement, elements: Sequence[int]) -
 
 def on_grid(scenario: Scenario, length: float, elements: int) -> Scenario:
     """The scenario with so many elements, and a step that the cable of this length, m, allows on them."""
-    cable, payload, period = scenario.cable, scenario.payload, scenario.control.period
-    top = (payload.mass + cable.hanging_density * length) * scenario.environment.gravity
-    allowed = 0.8 * courant_limit() * length / elements / np.sqrt(top / cable.line_density)
+    cable, period = hanging_cable(scenario, length), scenario.control.period
+    allowed = 0.8 * courant_limit() * length / elements / cable.top_wave_speed
     step = period / np.ceil(period / min(allowed, scenario.grid.step) - 1e-9)
     return scenario.replace({"grid.elements": elements, "grid.step": float(step)})
 

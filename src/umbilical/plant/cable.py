@@ -29,7 +29,7 @@ from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, real, vector
 from umbilical.plant.elements import DERIVATIVE, WEIGHTS
 from umbilical.plant.layout import positions, to_elements
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import Hanging, hanging_of, tension, tension_gain
 from umbilical.scenario.scenario import Scenario
 
 # Derivative on the reference element. Nodes lie symmetrically, so it turns even functions into odd ones and odd
@@ -61,7 +61,7 @@ class Cable(NamedTuple):
     """Constants of cable and ROV, SI units."""
 
     line_density: float
-    hanging_density: float
+    hanging: Hanging
     damping: float
     payload_mass: float
     payload_damping: float
@@ -81,7 +81,7 @@ def make_cable(scenario: Scenario, profiles: np.ndarray) -> Cable:
     above = 1.0 - positions(elements)
     return Cable(
         line_density=scenario.cable.line_density,
-        hanging_density=scenario.cable.hanging_density,
+        hanging=hanging_of(scenario.cable, scenario.payload, scenario.environment),
         damping=scenario.cable.damping,
         payload_mass=scenario.payload.mass,
         payload_damping=scenario.payload.damping,
@@ -112,8 +112,8 @@ def meet(
     """
     n = x.shape[1] // 2
     scale, above = 1.0 / length, cable.above_faces
-    foot = cable.payload_mass * net_gravity / cable.line_density
-    rise = cable.hanging_density * length * net_gravity / cable.line_density
+    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
+    rise = tension_gain(length, net_gravity, cable.hanging) / cable.line_density
     before, w_before, after, w_after = x[4, :n], x[4, n:], x[0, :n], x[0, n:]
     flow, pull = faces[LEFT, :n], faces[LEFT, n:]
     for f in range(1, n):
@@ -141,8 +141,8 @@ def look_at_ends(
 ) -> None:
     """Slopes y_x at ROV and vessel, each from the wave that runs into it; ``vessel`` is e', m/s."""
     n = x.shape[1] // 2
-    foot = sqrt(tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
-    head = sqrt(tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density)
+    foot = sqrt(tension(0.0, net_gravity, cable.hanging) / cable.line_density)
+    head = sqrt(tension(length, net_gravity, cable.hanging) / cable.line_density)
     ends.tip_slope = x[4, n - 1] / length + (ends.tip_velocity - x[4, 2 * n - 1]) / foot
     ends.vessel_slope = (x[0, n] - vessel + head * x[0, 0] / length) / (head + speed)
 
@@ -161,8 +161,8 @@ def meet_ends(
 ) -> None:
     """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
     n = faces.shape[1] // 2
-    foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
-    head = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) / cable.line_density
+    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
+    head = tension(length, net_gravity, cable.hanging) / cable.line_density
     top = vessel + speed * ends.vessel_slope
     faces[LEFT, 0] = vessel
     faces[LEFT, n] = (head * ends.vessel_slope - speed * top) / length
@@ -178,8 +178,8 @@ def flux(cable: Cable, x: np.ndarray, out: np.ndarray, length: float, speed: flo
     """The brackets of the two conservation laws at every node."""
     n = x.shape[1] // 2
     scale = 1.0 / length
-    foot = cable.payload_mass * net_gravity / cable.line_density
-    rise = cable.hanging_density * length * net_gravity / cable.line_density
+    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
+    rise = tension_gain(length, net_gravity, cable.hanging) / cable.line_density
     for j in range(5):
         above, slope, velocity, flow, pull = cable.above[j], x[j, :n], x[j, n:], out[j, :n], out[j, n:]
         for e in range(n):
@@ -260,7 +260,7 @@ def evaluate(
     differentiate(blocks[FLUX], faces, rate)
     if loads.size > 0:
         add_loads(cable, rate, loads)
-    pull = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density) * ends.tip_slope
+    pull = tension(0.0, net_gravity, cable.hanging) * ends.tip_slope
     ends.tip_rates[slot] = -(pull + cable.payload_damping * ends.tip_velocity) / cable.payload_mass
 
 

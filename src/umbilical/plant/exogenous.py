@@ -18,6 +18,7 @@ from umbilical.frames import Frame, real
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.relations.instants import slack
+from umbilical.relations.tension import net_gravity, relative_jerk
 from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import Winch
@@ -183,8 +184,8 @@ def _winch_at(law: Winch, gravity: float, steps: Steps) -> Array:
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
         length, speed, acceleration, jerk = winch.evaluate(law, t, side)
-        net_gravity = gravity - acceleration
-        return length, speed, acceleration, net_gravity, jerk / net_gravity
+        net = net_gravity(gravity, acceleration)
+        return length, speed, acceleration, net, relative_jerk(jerk, net)
 
     rows = np.zeros((len(WINCH), 3, steps.start.size))
     _fill(rows, motion, steps, middle=False)

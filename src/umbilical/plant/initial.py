@@ -7,6 +7,7 @@ import numpy as np
 from umbilical.plant import winch
 from umbilical.plant.elements import DEGREE, interpolation_row
 from umbilical.plant.signals import spline
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
@@ -47,8 +48,9 @@ def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
             return 2.0 * length / shape.width * off * shape.amplitude * np.exp(-(off**2))
         case StaticShape():
             # Under a steady force P on the ROV, y_x = P/T everywhere.
-            hanging = scenario.payload.mass + scenario.cable.hanging_density * above
-            return length * shape.force / (hanging * (scenario.environment.gravity - float(motion.acceleration)))
+            net = net_gravity(scenario.environment.gravity, float(motion.acceleration))
+            hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
+            return length * shape.force / tension(above, net, hung)
         case TableShape():
             return np.asarray(spline(shape.positions, shape.displacements).derivative()(sigma))
         case _:

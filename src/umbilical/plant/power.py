@@ -4,7 +4,7 @@ With p = y_x, W = Dy/Dt and E = 1/2 int(rho W^2 + T p^2) dx + 1/2 m W_l^2::
 
     dE/dt = W_l alpha + W_l d - c_tip W_l^2 - c int W^2 + int f W
             - T_0 p_0 e' - (v/2) T_0 p_0^2 + (rho v/2) (e' + v p_0)^2
-            - 1/2 (a'/(g - a)) int T p^2
+            - 1/2 (a'/(g - a)) int (m + rho (l - x)) (g - a) p^2
 
 A jump of the winch acceleration changes the tension and with it the energy at once. What the upwind flux takes
 from waves too short for the grid is in no term: it stays as the residual of the balance.
@@ -19,7 +19,7 @@ import numpy as np
 from umbilical.compile import kernel
 from umbilical.frames import Frame, real
 from umbilical.plant.cable import W0, W1, W2, Cable, Ends
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import inertial_tension, tension
 
 
 class EndWorks(Frame):
@@ -54,14 +54,15 @@ def strain_of_elements(
     cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net_gravity: float,
     factor: float,
 ) -> None:  # fmt: skip
-    """``factor`` times int T p^2 dx of every element (twice its strain energy, J) as its power.
+    """``factor`` times int (m + rho (l - x)) (g - a) p^2 dx of every element, J, as its power.
 
+    That is the part of T p^2 which follows the winch's acceleration; what the water carries does not.
     The power at the end of a step, with that at its start, works for ``half`` the step; then it is the present one.
     After a jump ``half`` is 0: the new power takes the place of the old.
     """
     n = power.size
-    foot = tension(0.0, net_gravity, cable.payload_mass, cable.hanging_density)
-    rise = tension(length, net_gravity, cable.payload_mass, cable.hanging_density) - foot
+    foot = inertial_tension(0.0, net_gravity, cable.hanging)
+    rise = inertial_tension(length, net_gravity, cable.hanging) - foot
     scale = factor / (2.0 * n * length)
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     a0, a1, a2, a3, a4 = cable.above[0], cable.above[1], cable.above[2], cable.above[3], cable.above[4]
@@ -139,7 +140,7 @@ def book_at_ends(
     vessel: float,
 ) -> None:  # fmt: skip
     """Damping of the ROV and the vessel's end, ``half`` as in :func:`strain_of_elements`; ``vessel`` is e', m/s."""
-    top_tension = tension(length, net_gravity, cable.payload_mass, cable.hanging_density)
+    top_tension = tension(length, net_gravity, cable.hanging)
     top_slope = ends.vessel_slope
     top_velocity = vessel + speed * top_slope
     damping = -cable.payload_damping * ends.tip_velocity * ends.tip_velocity

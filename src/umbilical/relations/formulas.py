@@ -1,4 +1,4 @@
-"""Tension, wave speed, thrust and motor constants: one formula, one place.
+"""Thrust and motor constants: one formula, one place.
 
 Each function works on floats and arrays in plain Python and is inlined into the kernels that call it.
 """
@@ -11,14 +11,6 @@ from typing import Any
 from numba.extending import register_jitable
 
 from umbilical.frames import Frame, real
-
-Real = Any  # a float inside kernels; a float or an array (any shape) outside
-
-
-@register_jitable
-def tension(distance: Real, net_gravity: Real, payload_mass: Real, hanging_density: Real) -> Real:
-    """Cable tension T = (m + rho (l - x)) (g - a), N; ``distance`` = l - x from the ROV, m (model of (6))."""
-    return (payload_mass + hanging_density * distance) * net_gravity
 
 
 @register_jitable

@@ -247,7 +247,7 @@ def c9(evidence: Evidence) -> Finding:
     assert control.disturbance_observer is not None
     gain, slow = control.motor_loop.observer_gain, control.disturbance_observer.gain
     fastest = max(term.frequency for m in run.scenario.motors for term in m.voltage_disturbance if term.kind == "sine")
-    limit, limit_D = (FOLLOWS * g / float(np.sqrt(1.0 - FOLLOWS**2)) for g in (gain, slow))
+    limit, limit_D = (FOLLOWS * of / float(np.sqrt(1.0 - FOLLOWS**2)) for of in (gain, slow))
     lag = fastest / float(np.hypot(fastest, gain))
     return Finding(
         "C9",

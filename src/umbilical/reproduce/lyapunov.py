@@ -10,6 +10,7 @@ import numpy as np
 
 from umbilical.analysis.certificate.lyapunov import boundary_function, cable_function
 from umbilical.analysis.certificate.records import Weights
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.run import Run
 from umbilical.scenario.control import BoundaryLaw
 
@@ -31,8 +32,9 @@ def lyapunov(run: Run) -> dict[str, np.ndarray]:
     law, observer = scenario.control.law, scenario.control.disturbance_observer
     if not isinstance(law, BoundaryLaw) or observer is None or not law.slope_gain:
         raise ValueError(f"{scenario.name}: V is defined for the boundary law with its disturbance observer")
-    rho, beta, mass = scenario.cable.line_density, law.slope_gain, scenario.payload.mass
-    tip = float(mass * (scenario.environment.gravity - run["payout_acceleration"].values).max())
+    rho, beta = scenario.cable.line_density, law.slope_gain
+    net = net_gravity(scenario.environment.gravity, run["payout_acceleration"].values)
+    tip = float(tension(0.0, net, hanging_of(scenario.cable, scenario.payload, scenario.environment)).max())
     longest = float(run["length"].max())
     lam = min(beta / longest, tip / (beta * rho * longest)) / MARGIN
     eta = MARGIN * tip / (2.0 * beta * law.damping_gain)

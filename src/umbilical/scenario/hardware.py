@@ -16,20 +16,19 @@ class Cable(Record):
     )
     damping: float = quantity("cable_damping", ge=0.0, reason="negative damping feeds the cable", cure="use 0 or more")
     wet_line_density: float | None = quantity(
-        "wet_line_density", None, ge=0.0, le=1e4, reason="T = (m + wet_line_density (l - x)) (g - a)",
-        cure="leave it out for the line density, 0 for constant tension",
+        "wet_line_density", None, ge=0.0, le=1e4, reason="a cable that floats does not hang",
+        cure="kg per metre, its weight in water over g: 0 floats, left out it weighs as in air",
     )  # fmt: skip
-
-    @property
-    def hanging_density(self) -> float:
-        """Line density that loads the tension, kg/m."""
-        return self.line_density if self.wet_line_density is None else self.wet_line_density
 
 
 class Payload(Record):
     """The ROV, a point mass at the cable's lower end."""
 
-    mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the tension at the ROV is m (g - a)", cure="kg")
+    mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the ROV resists acceleration with it", cure="kg")
+    wet_weight: float | None = quantity(
+        "wet_weight", None, gt=0.0, cure="newton, not kg; left out it weighs m g as in air",
+        reason="under a ROV that floats the cable is slack, which is no string: that needs a full model of the cable",
+    )  # fmt: skip
     damping: float = quantity("payload_damping", ge=0.0, reason="negative damping feeds the ROV", cure="use 0 or more")
 
 

@@ -11,13 +11,13 @@ from typing import Any
 from pydantic import ValidationError
 
 from umbilical import files
+from umbilical.admission.weights import cable_in_water, payload_in_water
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario.document import Data, extend, freeze, read, try_override
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.screening.axial import Bar
 from umbilical.screening.operation import Operation
 
-_HEAVIER = ("nothing is heavier in water than in air", "were wet and dry swapped, or newton and kilogram?")
 _LARGEST_STRAIN = 0.1
 
 
@@ -76,14 +76,10 @@ def bar_of(operation: Operation, length: float) -> Bar:
 def problems_across(operation: Operation) -> list[Problem]:
     """What is wrong between fields that are sound one by one."""
     cable, body = operation.cable, operation.payload
-    dry, strain = body.mass * operation.environment.gravity, body.wet_weight / cable.axial_stiffness
-    found = []
-    if cable.wet_line_density > cable.line_density:
-        value, bound = f"{cable.wet_line_density:g} kg/m", f"at most {cable.line_density:g} kg/m, the dry one"
-        found.append(Problem("cable.wet_line_density", value, bound, *_HEAVIER))
-    if body.wet_weight > dry:
-        value, bound = f"{body.wet_weight:g} N", f"at most {dry:g} N, the dry weight"
-        found.append(Problem("payload.wet_weight", value, bound, *_HEAVIER))
+    strain = body.wet_weight / cable.axial_stiffness
+    said: Any = operation  # its sections have the names that checks of scenarios read
+    checked = (cable_in_water(said.cable, said.environment), payload_in_water(said.payload, said.environment))
+    found = [finding for findings in checked for finding in findings if isinstance(finding, Problem)]
     if strain > _LARGEST_STRAIN:
         value = f"{cable.axial_stiffness:g} N"
         bound = f"at least {body.wet_weight / _LARGEST_STRAIN:g} N, a strain of {_LARGEST_STRAIN:.0%}"

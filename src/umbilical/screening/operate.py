@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
@@ -234,18 +235,15 @@ def _processes(
     operation: Operation, criterion: Criterion, bar: Bar, answer: HeaveTransfer, seas: np.ndarray
 ) -> list[tuple[float, Spread]]:
     """What a criterion bounds, and by which level above its mean; for Hs = 1 m."""
-    weight = operation.cable.wet_line_density * operation.environment.gravity
-    static = operation.payload.wet_weight
+    hung = hanging_of(operation.cable, operation.payload, operation.environment)
+    still = net_gravity(operation.environment.gravity)
     match criterion.name:
         case "top_tension":
-            return [(criterion.level - static - weight * bar.length, spread(abs(answer.top) ** 2, seas))]
+            return [(criterion.level - tension(bar.length, still, hung), spread(abs(answer.top) ** 2, seas))]
         case "body_heave":
             return [(criterion.level, spread(abs(answer.body) ** 2, seas))]
     below = [(1.0 - share) * bar.length for share in _PLACES]
-    return [
-        (static + weight * hanging, spread(abs(answer.tension_at(bar.length - hanging)) ** 2, seas))
-        for hanging in below
-    ]
+    return [(tension(s, still, hung), spread(abs(answer.tension_at(bar.length - s)) ** 2, seas)) for s in below]
 
 
 def _crossing(height: np.ndarray, allowed: np.ndarray) -> np.ndarray:

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erf
 
+from umbilical.relations.tension import hanging_of, net_gravity, tension_gain
 from umbilical.screening.axial import axial_period, heave_transfer
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import HeaveCompensation, Operation
@@ -90,7 +91,8 @@ def respond(
     velocity = spread(abs(answer.body) ** 2 * FREQUENCIES**2, heave).rms[0]
     body, end, top = (Spread(*(part[0] for part in spread(abs(h) ** 2, heave))) for h in answer[:3])
     end_mean = operation.payload.wet_weight - mean_drag(drag, payout_speed, velocity)
-    hanging = operation.cable.wet_line_density * operation.environment.gravity * depth
+    hung = hanging_of(operation.cable, operation.payload, operation.environment)
+    hanging = tension_gain(depth, net_gravity(operation.environment.gravity), hung)
     sheave = Spread(*(part[0] for part in spread(np.ones((1, FREQUENCIES.size)), heave)))
     return Response(depth, axial_period(bar), sheave, body, end, top, float(damping), end_mean, end_mean + hanging)
 

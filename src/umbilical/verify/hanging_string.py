@@ -28,7 +28,8 @@ def hanging(string: HangingString, **overrides: object) -> Scenario:
     """The string as a scenario, undamped."""
     return open_loop(
         winch__length=string.length, payload__mass=string.mass, cable__line_density=string.line_density,
-        environment__gravity=string.gravity, **overrides,
+        environment__gravity=string.gravity, payload__wet_weight=string.weight,
+        cable__wet_line_density=string.line_weight / string.gravity, **overrides,
     ).replace(UNDAMPED)  # fmt: skip
 
 
@@ -78,6 +79,12 @@ CASES = (
     *(
         Case(f"hanging cable, m = {mass:g} kg", BESSEL, SOURCE, lambda mass=mass: compared(HangingString(mass=mass)))
         for mass in (50.0, 5000.0)
+    ),
+    Case(
+        "hanging cable, in water",
+        "the same with T = W + q s",
+        SOURCE,
+        lambda: compared(HangingString(weight_left=0.3, line_weight_left=0.6)),
     ),
     Case(
         "hanging cable, constant tension",

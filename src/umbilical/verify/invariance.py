@@ -131,7 +131,7 @@ def all_dead() -> Iterator[Check]:
 
 
 def weightless() -> Iterator[Check]:
-    """T = (m + rho_wet (l - x)) (g - a): the distance to the cable of constant tension falls with rho_wet."""
+    """T = m g + w (l - x): the distance to the cable of constant tension falls with the weight w in water."""
 
     def along(wet: float) -> np.ndarray:
         start = {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5}
@@ -169,6 +169,6 @@ CASES = (
     Case("shift in time", TWO_RUNS, "(6)-(8) with l fixed", shifted),
     Case("other units", TWO_RUNS, "dimensional analysis", in_other_units),
     Case("all motors dead", "a run without control", "(16) with rho_i = u_k = 0", all_dead),
-    Case("rho -> 0 in T", "a run at constant tension", "T = (m + rho (l - x)) (g - a)", weightless),
+    Case("w -> 0 in T", "a run at constant tension", "T = m g + w (l - x)", weightless),
     Case("refinement", "a run on a grid twice as fine", "convergence", refined),
 )

@@ -38,7 +38,9 @@ TERMS_OFF = {
     "vessel still": Problem(4.0, vessel=0.0),
     "cable undamped": Problem(4.0, damping=0.0),
     "ROV undamped": Problem(4.0, tip_damping=0.0),
-    "cable without weight": Problem(4.0, hanging_density=0.0),
+    "cable without weight": Problem(2.0, cable_weight=0.0),
+    "lighter in water, growing": Problem(4.0, weight=350.0, cable_weight=8.0),
+    "lighter in water, shrinking": Problem(-4.0, weight=350.0, cable_weight=8.0),
 }
 TERM_TOLERANCE = 5e-5
 
@@ -80,10 +82,10 @@ def _driven(problem: Problem, elements: int) -> Scenario:
         grid__elements=elements,
         cable={
             "line_density": problem.line_density,
-            "wet_line_density": problem.hanging_density,
+            "wet_line_density": problem.cable_weight / problem.gravity,
             "damping": problem.damping,
         },
-        payload={"mass": problem.mass, "damping": problem.tip_damping},
+        payload={"mass": problem.mass, "damping": problem.tip_damping, "wet_weight": problem.weight},
         environment__gravity=problem.gravity,
         environment__cable_load=loads,
         environment__payload_force=history(exact.force(problem, t)),

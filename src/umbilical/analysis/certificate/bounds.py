@@ -13,7 +13,7 @@ from umbilical.analysis.certificate.records import Certificate, Ranges, Start, W
 from umbilical.analysis.certificate.setting import Loop
 from umbilical.plant import signals, winch
 from umbilical.plant.signals import spline
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import net_gravity, tension
 from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
@@ -55,7 +55,8 @@ def _of_vessel(loop: Loop, ranges: Ranges, weights: Weights, velocity: float) ->
     if not pays.min() > 0.0:
         return float("inf")
     least = np.clip(0.0, slowest, fastest)  # the smallest |v| of each piece
-    pull = tension(ranges.length.high, ranges.net.high, loop.m, loop.hanging) - loop.rho * least**2
+    top = np.maximum(*(tension(length, ranges.net.high, loop.hanging) for length in ranges.length))
+    pull = top - loop.rho * least**2
     largest = float((pull / (2.0 * pays) + 0.5 * loop.rho * (fastest - weights.vessel)).max())
     return (1.0 + ROUNDING) * largest * velocity**2
 
@@ -63,10 +64,11 @@ def _of_vessel(loop: Loop, ranges: Ranges, weights: Weights, velocity: float) ->
 def start_of(loop: Loop, scenario: Scenario) -> Start:
     """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
     motion = winch.evaluate(scenario.winch, 0.0)
-    length, net = float(motion.length), loop.g - float(motion.acceleration)
+    length, net = float(motion.length), net_gravity(loop.g, float(motion.acceleration))
     x = np.linspace(0.0, length, 16 * POINTS + 1)
-    slope = _initial_slope(scenario, length, net)(x)
-    strain = 0.5 * np.trapezoid(tension(length - x, net, loop.m, loop.hanging) * slope**2, x)
+    pull = tension(length - x, net, loop.hanging)
+    slope = _initial_slope(scenario, length, pull)(x)
+    strain = 0.5 * np.trapezoid(pull * slope**2, x)
     force = float(signals.evaluate(scenario.environment.payload_force, 0.0))
     return Start(float(strain), float(loop.beta * slope[-1]), force)
 
@@ -77,9 +79,9 @@ def lyapunov_of(loop: Loop, weights: Weights, start: Start) -> float:
     return start.cable + 0.5 * weights.boundary * (loop.m * start.error**2 + of_force)
 
 
-def _initial_slope(scenario: Scenario, length: float, net: float) -> Callable[[np.ndarray], np.ndarray]:
-    """y_x of the initial shape as a function of x."""
-    shape, mass, hanging = scenario.initial, scenario.payload.mass, scenario.cable.hanging_density
+def _initial_slope(scenario: Scenario, length: float, pull: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """y_x of the initial shape as a function of x, where the tension is ``pull``, N."""
+    shape = scenario.initial
     match shape:
         case SineShape():
             wave = shape.half_waves * np.pi / length
@@ -87,7 +89,7 @@ def _initial_slope(scenario: Scenario, length: float, net: float) -> Callable[[n
         case GaussianShape():
             return lambda x: _gaussian_slope(shape, length - x)
         case StaticShape():
-            return lambda x: shape.force / tension(length - x, net, mass, hanging)
+            return lambda x: shape.force / pull
         case TableShape():
             return lambda x: np.asarray(spline(shape.positions, shape.displacements)(x / length, 1)) / length
         case _:
@@ -104,11 +106,12 @@ def reach_of(loop: Loop, ranges: Ranges, weights: Weights, sigma: float) -> floa
 
     ``V1 + V2 >= 1/2 int (T - rho Q^2) p^2``, what is left when W is chosen worst, and by Cauchy and Schwarz
     ``(y - e)^2 <= int p^2 (T - rho Q^2) int 1/(T - rho Q^2)``. In each piece of time T is taken smallest and Q
-    largest; the integrand is convex, so the trapezoid rule errs upward.
+    largest; one over what is concave is convex, so the trapezoid rule errs upward.
     """
     share = np.linspace(0.0, sigma, POINTS + 1)
     shortest, longest, lightest = (part.ravel()[:, None] for part in (*ranges.length, ranges.net.low))
-    pull = tension((1.0 - share) * shortest, lightest, loop.m, loop.hanging)
+    above = 1.0 - share
+    pull = np.minimum(*(tension(above * length, lightest, loop.hanging) for length in (shortest, longest)))
     left = (1.0 - ROUNDING) * pull - (1.0 + ROUNDING) * loop.rho * (
         weights.vessel + weights.cross * share * longest
     ) ** 2

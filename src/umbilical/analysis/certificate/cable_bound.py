@@ -17,6 +17,7 @@ import numpy as np
 from umbilical.analysis.certificate.loads import Loads
 from umbilical.analysis.certificate.records import Certificate, Start
 from umbilical.analysis.certificate.setting import Loop
+from umbilical.relations.tension import tension
 
 FEWEST, MOST = 4000, 100_000
 STEPS_PER_TIME = 20.0
@@ -34,7 +35,7 @@ def cable_bound(certificate: Certificate, t: np.ndarray, start: Start | None = N
     loop, begin = certificate.loop, certificate.start if start is None else start
     grid = np.union1d(instants_of(certificate), t)
     slab = np.searchsorted(certificate.edges, grid[:-1], side="right") - 1
-    pull = loop.m * certificate.ranges.net.high.max(axis=1)[slab]
+    pull = tension(0.0, certificate.ranges.net.high.max(axis=1)[slab], loop.hanging)
     fed = pull / (2.0 * loop.beta) * error_bound(loop, grid, begin, certificate.loads) ** 2
     power = fed + certificate.cable_residual
     values = np.array([begin.cable, *_march(certificate, grid, slab, power, begin.cable)])

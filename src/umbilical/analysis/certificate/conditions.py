@@ -13,7 +13,7 @@ import numpy as np
 
 from umbilical.analysis.certificate.records import Inequality, Weights
 from umbilical.analysis.certificate.setting import Loop, Motion
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import inertial_tension, tension, tension_gain
 
 Array = np.ndarray
 Real = Any  # a float or an array
@@ -73,12 +73,12 @@ def _rate_at(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float
 
 def _matrices(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float) -> tuple[Array, ...]:
     """Entries 11, 12, 22 of N, then of M, at one end of the cable."""
-    rho, net = loop.rho, loop.g - motion.a
+    rho, net, hung, above = loop.rho, motion.net, loop.hanging, (1.0 - sigma) * motion.l
     q = vessel + cross * sigma * motion.l
-    pull = tension((1.0 - sigma) * motion.l, net, loop.m, loop.hanging)
+    pull, changing = tension(above, net, hung), inertial_tension(above, net, hung)
     m11 = loop.c + 0.5 * rho * cross
     m12 = 0.5 * (loop.c * q - rho * motion.v * cross)
-    m22 = 0.5 * (cross * pull + q * loop.hanging * net + pull * motion.jerk)
+    m22 = 0.5 * (cross * pull + tension_gain(q, net, hung) + changing * motion.jerk)
     return rho + 0.0 * q, rho * q, pull, m11 + 0.0 * q, m12, m22
 
 
@@ -90,7 +90,7 @@ def rate_limit(loop: Loop) -> float:
 
 def boundary_weight(loop: Loop, motion: Motion, rate: float) -> float:
     """Smallest eta/gam that lets K3 and K6 carry a rate; small, because loads at the ROV are weighed with it."""
-    needed = loop.m * (loop.g - motion.a.min()) / (2.0 * loop.beta)
+    needed = tension(0.0, motion.net.max(), loop.hanging) / (2.0 * loop.beta)
     return float(needed / (loop.k_a - 0.5 * loop.m * max(rate, 0.0)) * (1.0 + SLACK))
 
 
@@ -124,7 +124,7 @@ def _conditions(
 ) -> Iterator[tuple[Any, ...]]:
     lam, offset, eta = weights
     reach, speed_squared = offset + lam * motion.l, _wave_speed_squared(loop, motion)
-    top_squared = speed_squared + loop.hanging / loop.rho * motion.l * (loop.g - motion.a)
+    top_squared = tension(motion.l, motion.net, loop.hanging) / loop.rho
     pull = loop.rho * speed_squared
     ends = [_rate_at(loop, motion, lam, offset, end) for end in (0.0, 1.0)]
     tighter = float(ends[1].min() < ends[0].min())
@@ -170,4 +170,4 @@ def relative_margins(found: tuple[Condition, ...]) -> dict[str, Array]:
 
 def _wave_speed_squared(loop: Loop, motion: Motion) -> Array:
     """T/rho at the ROV, m2/s2."""
-    return loop.m * (loop.g - motion.a) / loop.rho
+    return tension(0.0, motion.net, loop.hanging) / loop.rho

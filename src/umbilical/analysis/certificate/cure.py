@@ -17,6 +17,7 @@ from umbilical.analysis.certificate.conditions import SLACK, rates
 from umbilical.analysis.certificate.search import best_weights
 from umbilical.analysis.certificate.setting import Loop, Motion, sampled, slab_edges
 from umbilical.errors import Problem
+from umbilical.relations.tension import tension
 from umbilical.scenario.winch import Winch
 
 TRIED, HALVINGS = 25, 10
@@ -97,7 +98,7 @@ def best_rate(loop: Loop, motion: Motion, *, enough: float = np.inf) -> float:
 
 def _sampled(loop: Loop, motion: Motion) -> tuple[np.ndarray, np.ndarray]:
     """Gains over eight decades, m/s, and the rate at three samples of each slab, 1/s."""
-    slowest_wave = float(np.sqrt(loop.m * (loop.g - motion.a.max()) / loop.rho))
+    slowest_wave = float(np.sqrt(tension(0.0, motion.net.min(), loop.hanging) / loop.rho))
     tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
     return tried, np.array([best_rate(loop._replace(beta=beta), _thin(motion)) for beta in tried])
 

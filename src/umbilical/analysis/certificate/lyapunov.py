@@ -14,7 +14,7 @@ import numpy as np
 from umbilical.analysis.certificate.records import Weights
 from umbilical.plant import signals, winch
 from umbilical.plant.exogenous import profile
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import hanging_of, inertial_tension, net_gravity, relative_jerk, tension, tension_gain
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
@@ -29,17 +29,19 @@ class Fields(NamedTuple):
         q: x + x0 without x0, that is x, m.
         weight: of each point in an integral over x, m.
         pull: tension T, N.
+        changing: the part of it that follows the acceleration, N.
+        gain: what T gains on a metre, N/m, shape (samples, 1).
         p: slope y_x.
         w: velocity Dy/Dt, m/s.
-        net: g - a, m/s2, shape (samples, 1).
     """
 
     q: Array
     weight: Array
     pull: Array
+    changing: Array
+    gain: Array
     p: Array
     w: Array
-    net: Array
 
     def integral(self, density: Array) -> Array:
         """Integral over the cable, shape (samples,)."""
@@ -62,9 +64,11 @@ def read_fields(scenario: Scenario, run: Mapping[str, Array]) -> Fields:
     points = (sigma[:-1, None] + half[:, None] * (1.0 + _POINTS)).ravel()
     share = (half[:, None] * _SHARES).ravel()
     length = np.asarray(run["length"])[:, None]
-    net = scenario.environment.gravity - np.asarray(run["payout_acceleration"])[:, None]
-    pull = tension((1.0 - points) * length, net, scenario.payload.mass, scenario.cable.hanging_density)
-    return Fields(points * length, share * length, pull, p(points), w(points), net)
+    net = net_gravity(scenario.environment.gravity, np.asarray(run["payout_acceleration"])[:, None])
+    hung, above = hanging_of(scenario.cable, scenario.payload, scenario.environment), (1.0 - points) * length
+    pull, changing = tension(above, net, hung), inertial_tension(above, net, hung)
+    gain = tension_gain(1.0, net, hung)
+    return Fields(points * length, share * length, pull, changing, gain, p(points), w(points))
 
 
 def cable_function(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> Array:
@@ -94,13 +98,14 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
     """
     f, rho, c = read_fields(scenario, run), scenario.cable.line_density, scenario.cable.damping
     time, lam, offset = np.asarray(run["time"]), weights.cross, weights.vessel
-    speed, length, net = np.asarray(run["payout_speed"]), np.asarray(run["length"]), f.net[:, 0]
-    jerk = winch.evaluate(scenario.winch, time).jerk / net
+    speed, length = np.asarray(run["payout_speed"]), np.asarray(run["length"])
+    net = net_gravity(scenario.environment.gravity, np.asarray(run["payout_acceleration"]))
+    jerk = relative_jerk(winch.evaluate(scenario.winch, time).jerk, net)
     p_0, p_l, w_l = (np.asarray(run[name]) for name in ("vessel_slope", "tip_slope", "tip_velocity"))
     e_rate = signals.vessel(scenario.environment, time)[1]
     reach, at_tip = offset + lam * f.q, offset + lam * length
-    mass, hanging = scenario.payload.mass, scenario.cable.hanging_density
-    top, foot = tension(length, net, mass, hanging) - rho * speed**2, tension(0.0, net, mass, hanging)
+    hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
+    top, foot = tension(length, net, hung) - rho * speed**2, tension(0.0, net, hung)
     load = loads_along(scenario, time, f.q / length[:, None])
     return {
         "vessel slope": -0.5 * top * (speed + offset) * p_0**2,
@@ -108,9 +113,9 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
         "thrust": foot * p_l * w_l,
         "damping": -c * f.integral(f.w**2),
         "load": f.integral(load * f.w),
-        "jerk": -0.5 * jerk * f.integral(f.pull * f.p**2),
+        "jerk": -0.5 * jerk * f.integral(f.changing * f.p**2),
         "cross velocity": -0.5 * rho * lam * f.integral(f.w**2),
-        "cross slope": -0.5 * f.integral((lam * f.pull + hanging * reach * f.net) * f.p**2),
+        "cross slope": -0.5 * f.integral((lam * f.pull + reach * f.gain) * f.p**2),
         "tip velocity": 0.5 * rho * at_tip * w_l**2,
         "tip slope": 0.5 * at_tip * foot * p_l**2,
         "winch speed": rho * lam * speed * f.integral(f.p * f.w),

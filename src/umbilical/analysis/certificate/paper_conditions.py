@@ -14,7 +14,7 @@ import numpy as np
 
 from umbilical.analysis.certificate.records import Inequality, Weights
 from umbilical.analysis.certificate.setting import Loop, Motion
-from umbilical.relations.formulas import tension
+from umbilical.relations.tension import inertial_tension, tension, tension_gain
 
 QUARTER = 0.25
 
@@ -30,8 +30,8 @@ def _conditions(
 ) -> Iterator[tuple[str, str, np.ndarray | float]]:
     rho, beta, c, k_a, v, length = loop.rho, loop.beta, loop.c, loop.k_a, motion.v, motion.l
     x = np.stack([np.zeros_like(length), length])  # iota_2 is a line in x
-    net = loop.g - motion.a
-    pull, foot = tension(length - x, net, loop.m, loop.hanging), tension(0.0 * length, net, loop.m, loop.hanging)
+    net, hung = motion.net, loop.hanging
+    pull, foot = tension(length - x, net, hung), tension(0.0 * length, net, hung)
     lam = _largest_lambda(loop, motion, foot) or weights.cross
     eta = 2.0 * float(foot.max()) / (2.0 * beta * k_a * (1.0 - 2.0 * QUARTER))
     young = length.max() * c / (QUARTER * rho)  # 1/delta_2
@@ -42,8 +42,8 @@ def _conditions(
     )  # fmt: skip
     yield (
         "lam/2 [T - l c/delta_2 - x T_x - l delta_1] - gam/2 DT/Dt", "N/s",
-        0.5 * lam * (pull - length * c * young + x * loop.hanging * net - (QUARTER * foot if loaded else 0.0))
-        + 0.5 * pull * motion.jerk,
+        0.5 * lam * (pull - length * c * young + tension_gain(x, net, hung) - (QUARTER * foot if loaded else 0.0))
+        + 0.5 * inertial_tension(length - x, net, hung) * motion.jerk,
     )  # fmt: skip
     yield (
         "eta [k_a - |c - k_a| sigma_1 - beta m sigma_2] - gam T_l/(2 beta)", "N s/m",

@@ -1,9 +1,9 @@
 """The conditions once more, proved instead of sampled: interval arithmetic over boxes of time, all x at once.
 
-Nothing here is shared with the search: the conditions are written anew from docs/certificates.md, and the winch laws
-are those of ``proof_motion.py``. Numbers of the scenario and of the certificate enter exactly as they are stored. In x
-every condition is a polynomial of degree 2 at most; it is positive on [0, l] if its three Bernstein coefficients are.
-In t a box is halved until its intervals decide.
+Nothing here is shared with the search but the formula of the tension: the conditions are written anew from
+docs/certificates.md, and the winch laws are those of ``proof_motion.py``. Numbers of the scenario and of the
+certificate enter exactly as they are stored. In x every condition is a polynomial of degree 2 at most; it is positive
+on [0, l] if its three Bernstein coefficients are. In t a box is halved until its intervals decide.
 """
 
 from __future__ import annotations
@@ -17,6 +17,13 @@ from mpmath.ctx_iv import MPIntervalContext
 from umbilical.analysis.certificate.proof_motion import Motion, motion_over
 from umbilical.analysis.certificate.records import Proof, Weights
 from umbilical.analysis.certificate.setting import Loop
+from umbilical.relations.tension import (
+    Hanging,
+    fading_tension,
+    net_gravity,
+    tension,
+    tension_gain,
+)
 from umbilical.scenario.winch import Winch
 
 BITS = 64
@@ -43,12 +50,13 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
     """
     ctx: Any = MPIntervalContext()
     ctx.prec = BITS
+    hung = loop.hanging_in(ctx.mpf)
     numbers = {
         name: ctx.mpf(value) for name, value in (loop._asdict() | weights._asdict()).items() if value is not None
     }
     boxes, left_open = 0, []
     for begin, end, rate in zip(edges[:-1].tolist(), edges[1:].tolist(), rates.tolist(), strict=True):
-        count, name, where = _slab(ctx, numbers, winch, (begin, end), rate, strict)
+        count, name, where = _slab(ctx, numbers, hung, winch, (begin, end), rate, strict)
         boxes += count
         if name:
             left_open.append((name, *where))
@@ -56,25 +64,31 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
 
 
 class Box(NamedTuple):
-    """Numbers of loop and certificate, and what the winch does in a box of time: speed, jerk, net gravity g - a.
+    """Numbers of loop and certificate, and what the winch does in a box of time: length, speed, jerk, and g - a.
 
-    ``reach`` is lam (l + x0)/gam, ``mass`` what hangs at the vessel; ``pull_top`` and ``pull`` are the tension at both
-    ends.
+    ``reach`` is lam (l + x0)/gam; ``pull_top`` and ``pull`` are the tension at both ends.
     """
 
     n: Mapping[str, Interval]
+    hanging: Hanging
     rate: Interval
+    length: Interval
     v: Interval
     jerk: Interval
     net: Interval
     reach: Interval
-    mass: Interval
     pull_top: Interval
     pull: Interval
 
 
 def _slab(
-    ctx: Any, numbers: Mapping[str, Interval], winch: Winch, slab: tuple[float, float], rate: float, strict: bool
+    ctx: Any,
+    numbers: Mapping[str, Interval],
+    hung: Hanging,
+    winch: Winch,
+    slab: tuple[float, float],
+    rate: float,
+    strict: bool,
 ) -> tuple[int, str, tuple[float, float]]:
     """Decide one slab: boxes it took, and the condition and the box that stayed open; a half is asked only for what
     its whole left undecided."""
@@ -84,7 +98,7 @@ def _slab(
     while waiting:
         begin, end, depth, asked = waiting.pop()
         count += 1
-        box = _box(numbers, motion_over(ctx, winch, begin, end), ctx.mpf(rate))
+        box = _box(numbers, hung, motion_over(ctx, winch, begin, end), ctx.mpf(rate))
         verdicts = {name: _verdict(name, box, strict) for name in asked}
         undecided = tuple(name for name, verdict in verdicts.items() if verdict is not True)
         if undecided:
@@ -96,10 +110,10 @@ def _slab(
     return count, "", slab
 
 
-def _box(n: Mapping[str, Interval], motion: Motion, rate: Interval) -> Box:
+def _box(n: Mapping[str, Interval], hung: Hanging, motion: Motion, rate: Interval) -> Box:
     length, v, a, jerk = motion
-    net, mass = n["g"] - a, n["m"] + n["hanging"] * length
-    return Box(n, rate, v, jerk, net, n["vessel"] + n["cross"] * length, mass, mass * net, n["m"] * net)
+    net, reach = net_gravity(n["g"], a), n["vessel"] + n["cross"] * length
+    return Box(n, hung, rate, length, v, jerk, net, reach, tension(length, net, hung), tension(0, net, hung))
 
 
 def _verdict(name: str, box: Box, strict: bool) -> bool | None:
@@ -117,7 +131,7 @@ def _weights(b: Box) -> Iterator[Interval]:
 
 
 def _wave(b: Box) -> Iterator[Interval]:
-    yield b.net
+    yield b.pull
     yield b.pull_top - b.n["rho"] * b.v**2
 
 
@@ -147,8 +161,10 @@ def _k5(b: Box) -> Iterator[Interval]:
     corner = n["c"] + rho * (lam - b.rate) / 2
     yield corner
     side = [(q * (n["c"] - b.rate * rho) - rho * b.v * lam) / 2 for q in (n["vessel"], b.reach)]
-    stiff = (lam - b.rate) * b.net + b.jerk
-    far = [(mass * stiff + q * n["hanging"] * b.net) / 2 for mass, q in ((b.mass, n["vessel"]), (n["m"], b.reach))]
+    far = [
+        (fading_tension(lam - b.rate, s, b.net, b.jerk, b.hanging) + tension_gain(q, b.net, b.hanging)) / 2
+        for s, q in ((b.length, n["vessel"]), (0, b.reach))
+    ]
     yield from far  # without them A = B = 0 would let any C pass
     yield from _least((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
 

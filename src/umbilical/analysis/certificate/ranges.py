@@ -15,6 +15,7 @@ from mpmath.ctx_iv import MPIntervalContext
 from umbilical.analysis.certificate.proof_motion import motion_over
 from umbilical.analysis.certificate.records import Ranges, Span, Weights
 from umbilical.analysis.certificate.setting import Loop
+from umbilical.relations.tension import carried, net_gravity, relative_jerk, tension
 from umbilical.scenario.winch import Winch
 
 PIECES = 16
@@ -32,7 +33,7 @@ def ranges_of(winch: Winch, gravity: float, edges: np.ndarray) -> Ranges:
     for begin, end in pairwise(edges.tolist()):
         for low, high in pairwise(np.linspace(begin, end, PIECES + 1).tolist()):
             length, speed, acceleration, _ = motion_over(ctx, winch, low, high)
-            found.append([_outward(part) for part in (length, speed, gravity - acceleration)])
+            found.append([_outward(part) for part in (length, speed, net_gravity(gravity, acceleration))])
     spans = np.array(found).reshape(edges.size - 1, PIECES, 3, 2)
     return Ranges(*(Span(spans[:, :, k, 0], spans[:, :, k, 1]) for k in range(3)))
 
@@ -44,8 +45,8 @@ def _outward(interval: Interval) -> tuple[float, float]:
 def stretch_of(loop: Loop, winch: Winch, weights: Weights, edges: np.ndarray) -> np.ndarray:
     """Largest growth of V where the tension jumps with the winch's acceleration, at each edge.
 
-    ``N_after <= k N_before`` for all x with ``k = 1 + (r - 1)/(1 - rho Q^2/T)``, r the ratio of the tensions; the
-    bracket is smallest at the ROV.
+    ``N_after <= k N_before`` for all x with ``k = 1 + (r - 1)/(1 - rho Q^2/T)``, r the ratio of the tensions. Both
+    ``r`` and ``rho Q^2/T`` are largest at an end of the cable: one is a ratio of lines, the other convex.
     """
     ctx: Any = MPIntervalContext()
     middles = 0.5 * (edges[:-1] + edges[1:])
@@ -57,9 +58,14 @@ def _growth(ctx: Any, loop: Loop, winch: Winch, weights: Weights, instant: float
     """k - 1 at one instant, by the laws that hold before and after it; 0 where the tension does not grow."""
     _, _, old, _ = motion_over(ctx, winch, instant, instant, before)
     length, _, new, _ = motion_over(ctx, winch, instant, instant, after)
-    net = loop.g - old
-    grown = (old - new) / net
+    net, hung = net_gravity(loop.g, old), loop.hanging_in(ctx.mpf)
+    grown = relative_jerk(old - new, net)
     if grown.b <= 0:
         return 0.0
-    left = 1 - loop.rho * (weights.vessel + weights.cross * length) ** 2 / (loop.m * net)
+    steep, wide = [], []
+    for s, reach in ((0, weights.vessel + weights.cross * length), (length, weights.vessel)):
+        pull = tension(s, net, hung)
+        steep.append(1 + carried(s, hung) / pull)
+        wide.append(1 - loop.rho * reach**2 / pull)
+    grown, left = grown * max(steep, key=lambda part: part.b), min(wide, key=lambda part: part.a)
     return _outward(grown / left)[1] if left.a > 0 else np.inf

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import winch as laws
+from umbilical.relations.tension import Hanging, hanging, net_gravity, relative_jerk
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import ConstantLength, Cosine, Winch
@@ -24,9 +26,10 @@ class Loop(NamedTuple):
     """Constants of cable, ROV and ideal loop, in the paper's letters.
 
     Attributes:
-        rho, hanging: line density, and what of it loads the tension, kg/m.
+        rho: line density, kg/m.
         m: mass of the ROV, kg.
         g: gravity, m/s2.
+        wet, weight: density of the cable, kg/m, and weight of the ROV, N, in water; None as in air.
         c: damping of the cable, N s/m2.
         beta: slope gain, m/s.
         k_a: boundary damping that is left for the proof, N s/m: all of it, or half when no disturbance observer
@@ -36,23 +39,35 @@ class Loop(NamedTuple):
     """
 
     rho: float
-    hanging: float
     m: float
     g: float
+    wet: float | None
+    weight: float | None
     c: float
     beta: float
     k_a: float
     k_s: float | None
     vs: float
 
+    @property
+    def hanging(self) -> Hanging:
+        """What hangs on the cable."""
+        return self.hanging_in(float)
+
+    def hanging_in(self, number: Callable[[float], Any]) -> Hanging:
+        """The same in another kind of numbers: with intervals, free of rounding."""
+        given = (None if value is None else number(value) for value in (self.weight, self.wet))
+        return hanging(number(self.m), number(self.rho), number(self.g), *given)
+
 
 class Motion(NamedTuple):
-    """The winch at sampled instants; each an array (slabs, samples): t, l, v, a and a'/(g - a)."""
+    """The winch at sampled instants; each an array (slabs, samples): t, l, v, a, g - a and a'/(g - a)."""
 
     t: np.ndarray
     l: np.ndarray  # noqa: E741 - the paper's letter
     v: np.ndarray
     a: np.ndarray
+    net: np.ndarray
     jerk: np.ndarray
 
 
@@ -72,9 +87,10 @@ def loop_of(scenario: Scenario) -> Loop:
     observes = observer is not None and observer.enabled
     return Loop(
         rho=scenario.cable.line_density,
-        hanging=scenario.cable.hanging_density,
         m=scenario.payload.mass,
         g=scenario.environment.gravity,
+        wet=scenario.cable.wet_line_density,
+        weight=scenario.payload.wet_weight,
         c=scenario.cable.damping,
         beta=law.slope_gain,
         k_a=law.damping_gain if observes else law.damping_gain / 2.0,
@@ -106,10 +122,11 @@ def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Motion:
     right, left = laws.evaluate(winch, t, "right"), laws.evaluate(winch, t, "left")
     last = np.arange(SAMPLES) == SAMPLES - 1
     length, speed, acceleration, jerk = (np.where(last, b, f) for f, b in zip(right, left, strict=True))
-    return Motion(t, length, speed, acceleration, jerk / (gravity - acceleration))
+    net = net_gravity(gravity, acceleration)
+    return Motion(t, length, speed, acceleration, net, relative_jerk(jerk, net))
 
 
-def stopped(motion: Motion) -> Motion:
+def stopped(motion: Motion, gravity: float) -> Motion:
     """The same cable with the winch stopped at its greatest length; one slab, one sample."""
     zero = np.zeros((1, 1))
-    return Motion(zero, np.full((1, 1), motion.l.max()), zero, zero, zero)
+    return Motion(zero, np.full((1, 1), motion.l.max()), zero, zero, zero + net_gravity(gravity), zero)

@@ -1,7 +1,9 @@
 """The hanging string with a mass at its free end, in closed form.
 
-With s up from the ROV, ``T = (m + rho s) g`` and ``z(s) = 2 w sqrt((m + rho s)/(rho g))``, eq. (6) without damping has
-the solutions ``J0(z)`` and ``Y0(z)``. Frequencies: "Frequencies of a hanging chain supporting an end mass".
+With s up from the ROV, ``T = W + q s`` (in air ``W = m g``, ``q = rho g``) and ``z(s) = 2 w sqrt(rho T)/q``, eq. (6)
+without damping has the solutions ``J0(z)`` and ``Y0(z)``. The ROV's ``T Y_s = -m w^2 Y`` is
+``Y_z = -m w/sqrt(rho W) Y``; in air the factor is z/2 and the two terms make a J2: "Frequencies of a hanging chain
+supporting an end mass".
 """
 
 from __future__ import annotations
@@ -16,29 +18,46 @@ from scipy.special import jv, yv
 
 
 class HangingString(NamedTuple):
-    """Line density, kg/m; mass at the end, kg; length, m; gravity, m/s2."""
+    """Line density, kg/m; mass at the end, kg; length, m; gravity, m/s2; share of both weights that water leaves."""
 
     line_density: float = 2.0
     mass: float = 500.0
     length: float = 500.0
     gravity: float = 10.0
+    weight_left: float = 1.0
+    line_weight_left: float = 1.0
+
+    @property
+    def weight(self) -> float:
+        """W of the mass at the end, N."""
+        return self.weight_left * self.mass * self.gravity
+
+    @property
+    def line_weight(self) -> float:
+        """q, N/m."""
+        return self.line_weight_left * self.line_density * self.gravity
+
+    @property
+    def inertia(self) -> float:
+        """m/sqrt(rho W), s."""
+        return self.mass / float(np.sqrt(self.line_density * self.weight))
 
     def argument(self, above: Any) -> Any:
         """z/w at a height above the ROV, s."""
-        return 2.0 * np.sqrt((self.mass + self.line_density * above) / (self.line_density * self.gravity))
+        return 2.0 * np.sqrt(self.line_density * (self.weight + self.line_weight * above)) / self.line_weight
 
 
 def frequencies(string: HangingString, count: int) -> np.ndarray:
-    """Roots w, rad/s, of ``J0(z1) Y2(z0) - Y0(z1) J2(z0) = 0``, z0 at the ROV and z1 at the vessel, to 15 digits."""
+    """Roots w, rad/s, of ``Y_z + m w/sqrt(rho W) Y = 0`` at the ROV, Y 0 at the vessel, to 15 digits."""
     foot, top = float(string.argument(0.0)), float(string.argument(string.length))
 
     def equation(w: Any) -> Any:
-        return mpmath.besselj(0, top * w) * mpmath.bessely(2, foot * w) - mpmath.bessely(0, top * w) * mpmath.besselj(
-            2, foot * w
-        )
+        z0, z1 = foot * w, top * w
+        first, second = (string.inertia * w * f(0, z0) - f(1, z0) for f in (mpmath.besselj, mpmath.bessely))
+        return first * mpmath.bessely(0, z1) - second * mpmath.besselj(0, z1)
 
     with mpmath.workdps(30):
-        return np.array([float(mpmath.findroot(equation, root)) for root in _scanned(foot, top, count)])
+        return np.array([float(mpmath.findroot(equation, root)) for root in _scanned(string, count)])
 
 
 def mode_shape(string: HangingString, frequency: float, above: np.ndarray) -> np.ndarray:
@@ -51,11 +70,13 @@ def mode_shape(string: HangingString, frequency: float, above: np.ndarray) -> np
     return shape(frequency * string.argument(above)) / shape(frequency * string.argument(0.0))
 
 
-def _scanned(foot: float, top: float, count: int) -> list[float]:
+def _scanned(string: HangingString, count: int) -> list[float]:
     """The roots in double precision, none left out: their distance tends to ``pi/(top - foot)``."""
+    foot, top = float(string.argument(0.0)), float(string.argument(string.length))
 
     def equation(w: Any) -> Any:
-        return jv(0, top * w) * yv(2, foot * w) - yv(0, top * w) * jv(2, foot * w)
+        first, second = (string.inertia * w * f(0, foot * w) - f(1, foot * w) for f in (jv, yv))
+        return first * yv(0, top * w) - second * jv(0, top * w)
 
     grid = np.concatenate([np.geomspace(1e-4, 0.02, 200), np.arange(0.03, count + 2.0, 0.02)]) * np.pi / (top - foot)
     values = equation(grid)
@@ -98,19 +119,18 @@ def _damped_pole(string: HangingString, tip_damping: float, near: complex) -> co
         def shape(order: int) -> Any:
             return mpmath.besselj(order, z0) * mpmath.bessely(0, z1) - mpmath.bessely(order, z0) * mpmath.besselj(0, z1)
 
-        # dz/ds = 2 w^2/(g z), s up from the ROV; J0' = -J1, and Y_x = -Y_s.
-        slope = shape(1) * 2 * w * w / (string.gravity * z0)
-        return (string.mass * lam * lam + tip_damping * lam) * shape(0) + string.mass * string.gravity * slope
+        # dz/ds = 2 w^2 rho/(q z), s up from the ROV; J0' = -J1, and Y_x = -Y_s.
+        slope = shape(1) * 2 * w * w * string.line_density / (string.line_weight * z0)
+        return (string.mass * lam * lam + tip_damping * lam) * shape(0) + string.weight * slope
 
     with mpmath.workdps(20):
         return complex(mpmath.findroot(residue, near))
 
 
 def static_shape(string: HangingString, force: float, sigma: np.ndarray) -> np.ndarray:
-    """Deflection, m, under a steady force on the ROV: ``P/(rho g) ln((m + rho l)/(m + rho (l - x)))``."""
-    hanging = string.line_density * string.length
-    scale = force / (string.line_density * string.gravity)
-    return scale * np.log((string.mass + hanging) / (string.mass + hanging * (1.0 - sigma)))
+    """Deflection, m, under a steady force on the ROV: ``P/q ln(T_0/T)``."""
+    foot, gained = string.weight, string.line_weight * string.length
+    return force / string.line_weight * np.log((foot + gained) / (foot + gained * (1.0 - sigma)))
 
 
 class _Mode(NamedTuple):
@@ -127,7 +147,7 @@ def _modes(string: HangingString, count: int) -> list[_Mode]:
     above = 0.5 * string.length * (points + 1.0)
     weights = 0.5 * string.length * string.line_density * weights
     found = []
-    for w in _scanned(float(string.argument(0.0)), float(string.argument(string.length)), count):
+    for w in _scanned(string, count):
         z = w * string.argument(np.append(above, [0.0, string.length]))
         shape = jv(0, z) * yv(0, z[-1]) - yv(0, z) * jv(0, z[-1])
         along, tip = shape[:-2], float(shape[-2])

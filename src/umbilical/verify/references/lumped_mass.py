@@ -1,7 +1,8 @@
 """MoorDyn: an independent code for marine cables, lumped masses and springs, on the same hanging cable.
 
-It runs in a process of its own, for it prints a line per step and can end the process it is in. In vacuum, without
-drag; nearly inextensible (EA = 1e8 N), the unstretched length shortened so that it hangs at the wanted one.
+It runs in a process of its own, for it prints a line per step and can end the process it is in. Without drag and added
+mass; where the string weighs less than in air, in water that its volumes displace. Nearly inextensible (EA = 1e8 N),
+the unstretched length shortened so that it hangs at the wanted one.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from umbilical.verify.cases import CaseError
 from umbilical.verify.references.hanging_string import HangingString
 
 STIFFNESS = 1e8
+WATER = 1025.0
+"""Density of water, kg/m3."""
 SETTLING = 60.0
 """Seconds it hangs still before the vessel moves."""
 STEP = 0.01
@@ -29,12 +32,12 @@ _INPUT = """Written by Umbilical
 ---------------------- LINE TYPES ----------------------
 TypeName  Diam  Mass/m  EA   BA/-zeta  EI  Cd  Ca  CdAx  CaAx
 (name)    (m)   (kg/m)  (N)  (N-s/-)   (-) (-) (-) (-)   (-)
-cable     0.01  {density:.17g} {stiffness:.17g} -0.1 0 0 0 0 0
+cable     {diameter:.17g}  {density:.17g} {stiffness:.17g} -0.1 0 0 0 0 0
 ---------------------- POINTS ----------------------
 ID   Type     X  Y  Z        Mass     Volume  CdA  CA
 (#)  (-)      (m) (m) (m)    (kg)     (m3)    (m2) (-)
 1    Coupled  0  0  0        0        0       0    0
-2    Free     0  0  {depth:.17g} {mass:.17g} 0 0 0
+2    Free     0  0  {depth:.17g} {mass:.17g} {volume:.17g} 0 0
 ---------------------- LINES ----------------------
 ID   LineType  AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
 (#)  (name)    (#)      (#)      (m)       (-)      (-)
@@ -44,7 +47,7 @@ ID   LineType  AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
 RK4   tScheme
 0.1   cfl
 {gravity:.17g} g
-0     WtrDnsty
+{water:.17g} WtrDnsty
 {bottom:.17g} WtrDpth
 0     TmaxIC
 ---------------------- need this line ----------------------
@@ -98,12 +101,15 @@ def tip(string: HangingString, segments: int, vessel: np.ndarray, velocity: np.n
 
 def _input(string: HangingString, segments: int) -> str:
     """MoorDyn's input file; the cable is stretched by ``int T ds/EA`` under the weight below it."""
-    rho, m, length, g = string
-    stretch = (m + rho * length / 2.0) * g * length / STIFFNESS
+    rho, m, length, g = string[:4]
+    stretch = (string.weight + string.line_weight * length / 2.0) * length / STIFFNESS
     unstretched = length - stretch
+    displaced = (rho - string.line_weight / g) * length / unstretched
+    water = WATER if displaced else 0.0
     return _INPUT.format(
         density=rho * length / unstretched, stiffness=STIFFNESS, depth=-length, mass=m, unstretched=unstretched,
-        segments=segments, gravity=g, bottom=4.0 * length,
+        segments=segments, gravity=g, bottom=4.0 * length, water=water,
+        volume=(m - string.weight / g) / WATER, diameter=np.sqrt(4.0 / np.pi * displaced / WATER) or 0.01,
     )  # fmt: skip
 
 

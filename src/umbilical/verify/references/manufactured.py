@@ -4,6 +4,7 @@ Chosen is ``y = p(t) sin(k sigma) + q(t) cos(k sigma)`` with sigma = x/l(t), whi
 sigma`` and ``b = v/l`` the material derivative is ``D/Dt = d/dt + b A d/dsigma``, so what must drive it, from
 
     f = rho D2y/Dt2 - (T y_x)_x + c Dy/Dt         d = m D2y/Dt2 + T y_x + c_tip Dy/Dt  at the ROV
+    T = W + w (l - x) - (m + rho (l - x)) a       weights in water, masses with all they are
 
 is a sum of six profiles, ``{1, A, A^2} x {sin, cos}``, each with a history of its own, and ``e = q``.
 """
@@ -27,16 +28,17 @@ class Histories(NamedTuple):
 
 
 class Problem(NamedTuple):
-    """Cable and ROV, and ``l = l0 + s (1 - cos w t)``, which grows or shrinks with the sign of s until pi/w.
+    """Cable and ROV with their weights, N/m and N, and ``l = l0 + s (1 - cos w t)``.
 
-    With ``steady`` the winch turns at the constant speed s w instead, which leaves at rest only a cable that hangs
-    straight: p then starts from 0.
+    The cable grows or shrinks with the sign of s until pi/w. With ``steady`` the winch turns at the constant speed s w
+    instead, which leaves at rest only a cable that hangs straight: p then starts from 0.
     """
 
     swing: float
     line_density: float = 2.0
-    hanging_density: float = 2.0
+    cable_weight: float = 20.0
     mass: float = 50.0
+    weight: float = 500.0
     gravity: float = 10.0
     damping: float = 0.3
     tip_damping: float = 5.0
@@ -62,6 +64,10 @@ class Problem(NamedTuple):
         w, s = self.frequency, self.swing
         length = self.start_length + s * (1.0 - np.cos(w * t))
         return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
+
+    def tension_at_the_tip(self, t: Array) -> Array:
+        """T(l) = W - m a, N."""
+        return self.weight - self.mass * self.winch(t)[2]
 
     def sine_part(self, t: Array) -> Histories:
         """p(t) = p(0) - (1 - cos(2 t))/3."""
@@ -107,9 +113,9 @@ def profiles(sigma: Array) -> Array:
 
 def load(problem: Problem, t: Array) -> Array:
     """Histories of the six profiles in f, N/m, shape (6, t)."""
-    k, rho, hanging, c = WAVENUMBER, problem.line_density, problem.hanging_density, problem.damping
+    k, rho, c = WAVENUMBER, problem.line_density, problem.damping
     length, speed, acceleration = problem.winch(t)
-    net = problem.gravity - acceleration
+    foot, gain = problem.tension_at_the_tip(t), problem.cable_weight - rho * acceleration
     b = speed / length
     db = acceleration / length - b * b
     p, q = problem.sine_part(t), problem.cosine_part(t)
@@ -121,11 +127,11 @@ def load(problem: Problem, t: Array) -> Array:
             sign * k * (2.0 * h.first * b + h.value * db - h.value * b * b),
             -k * k * g.value * b * b,
         )
-        # (T y_x)_x = (g - a)/l^2 [(m + rho_h l A) g S'' - rho_h l g S'].
+        # T = T_l + (w - rho a) l A, so (T y_x)_x = [T g S'' - (w - rho a) l g S']/l^2.
         slope = sign * k * h.value
         pull = (
-            net / length**2 * (-problem.mass * k * k * g.value - hanging * length * slope),
-            -net / length * hanging * k * k * g.value,
+            (-foot * k * k * g.value - gain * length * slope) / length**2,
+            -gain / length * k * k * g.value,
             0.0 * t,
         )
         drag = (g.first, sign * k * b * h.value, 0.0 * t)
@@ -136,12 +142,12 @@ def load(problem: Problem, t: Array) -> Array:
 def force(problem: Problem, t: Array) -> Array:
     """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
     p, q = problem.sine_part(t), problem.cosine_part(t)
-    length, _, acceleration = problem.winch(t)
+    length = problem.winch(t)[0]
     s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
     slope = WAVENUMBER / length * (p.value * c - q.value * s)
     return (
         problem.mass * (p.second * s + q.second * c)
-        + problem.mass * (problem.gravity - acceleration) * slope
+        + problem.tension_at_the_tip(t) * slope
         + problem.tip_damping * (p.first * s + q.first * c)
     )
 
@@ -150,7 +156,8 @@ def wave_amplitude(problem: Problem, t: float) -> float:
     """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum."""
     sigma = np.linspace(0.0, 1.0, 201)
     length, _, acceleration = problem.winch(np.asarray(t))
-    tension = (problem.mass + problem.hanging_density * length * (1.0 - sigma)) * (problem.gravity - acceleration)
+    gain = problem.cable_weight - problem.line_density * acceleration
+    tension = problem.tension_at_the_tip(np.asarray(t)) + gain * length * (1.0 - sigma)
     slope = np.gradient(displacement(problem, sigma, t), sigma) / length
     running = np.sqrt(tension / problem.line_density) * slope
     w = velocity(problem, sigma, t)

@@ -1,0 +1,123 @@
+"""Tension of the cable: its formula, its rate of change and its bounds. No other file does arithmetic with gravity.
+
+A point at the distance ``s = l - x`` above the ROV carries the wet weight ``W + w s`` of what hangs below it and
+accelerates its whole mass ``m + rho s``: buoyancy bears weight and accelerates nothing. With the downward acceleration
+``a`` of the cable, B = m g - W and b = rho g - w,
+
+    T(s) = W + w s - (m + rho s) a = (m + rho s) (g - a) - (B + b s)
+    DT/Dt = -(m + rho s) a' = -a'/(g - a) (m + rho s) (g - a)
+
+because a particle of cable keeps its s. At one instant T is a line in s, so the ends of the cable bound it. In air
+B = b = 0. Source: axial balance of an inextensible cable; (6) of the paper without buoyancy.
+
+Every function takes floats, arrays that broadcast, or intervals, and is inlined into the kernels that call it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba.extending import register_jitable
+
+Real = Any  # a float inside kernels; a float, an array or an interval outside
+
+
+class Hanging(NamedTuple):
+    """What hangs on the cable.
+
+    Attributes:
+        mass: of the ROV, kg.
+        line_density: of the cable, kg/m.
+        buoyancy: B = m g - W of the ROV, N.
+        line_buoyancy: b = rho g - w of the cable, N/m.
+    """
+
+    mass: Real
+    line_density: Real
+    buoyancy: Real
+    line_buoyancy: Real
+
+
+def hanging(
+    mass: Real, line_density: Real, gravity: Real, wet_weight: Real | None = None, wet_density: Real | None = None
+) -> Hanging:
+    """What hangs, from masses (kg, kg/m), gravity (m/s2), wet weight (N) and wet density (kg/m); None: as in air.
+
+    >>> hanging(500.0, 2.0, 10.0, wet_weight=4000.0, wet_density=0.5)
+    Hanging(mass=500.0, line_density=2.0, buoyancy=1000.0, line_buoyancy=15.0)
+    """
+    buoyancy = 0.0 if wet_weight is None else mass * gravity - wet_weight
+    line_buoyancy = 0.0 if wet_density is None else (line_density - wet_density) * gravity
+    return Hanging(mass, line_density, buoyancy, line_buoyancy)
+
+
+def hanging_of(cable: Any, payload: Any, environment: Any) -> Hanging:
+    """What hangs, from these sections of a scenario."""
+    return hanging(payload.mass, cable.line_density, environment.gravity, payload.wet_weight, cable.wet_line_density)
+
+
+@register_jitable
+def net_gravity(gravity: Real, acceleration: Real = 0.0) -> Real:
+    """g - a, m/s2: what a mass on a cable that sinks with the acceleration ``a`` still weighs per kilogram, in air."""
+    return gravity - acceleration
+
+
+@register_jitable
+def relative_jerk(jerk: Real, net: Real) -> Real:
+    """a'/(g - a), 1/s: DT/Dt is minus this times :func:`inertial_tension`."""
+    return jerk / net
+
+
+@register_jitable
+def inertial_tension(distance: Real, net: Real, hung: Hanging) -> Real:
+    """(m + rho s) (g - a), N: the tension in air, and the part of T that follows the acceleration."""
+    return (hung.mass + hung.line_density * distance) * net
+
+
+@register_jitable
+def carried(distance: Real, hung: Hanging) -> Real:
+    """B + b s, N: what the water carries of the cable below a point and of the ROV."""
+    return hung.buoyancy + hung.line_buoyancy * distance
+
+
+@register_jitable
+def tension(distance: Real, net: Real, hung: Hanging) -> Real:
+    """T at the distance s = l - x from the ROV, N; ``net`` is :func:`net_gravity`.
+
+    >>> tension(np.array([0.0, 500.0]), net_gravity(10.0, 0.5), hanging(500.0, 2.0, 10.0, 4000.0, 0.5)).tolist()
+    [3750.0, 5750.0]
+    """
+    return inertial_tension(distance, net, hung) - carried(distance, hung)
+
+
+@register_jitable
+def tension_gain(distance: Real, net: Real, hung: Hanging) -> Real:
+    """T(s) - T(0) = (rho (g - a) - b) s, N; for s = 1 the slope of the tension, N/m."""
+    return hung.line_density * distance * net - hung.line_buoyancy * distance
+
+
+def fading_tension(share: Real, distance: Real, net: Real, jerk: Real, hung: Hanging) -> Real:
+    """``share T - DT/Dt``, share in 1/s, a' in m/s3; each mass occurs once, so that intervals stay narrow."""
+    return inertial_tension(distance, share * net + jerk, hung) - share * carried(distance, hung)
+
+
+def smallest_tension(length: Real, net: Real, hung: Hanging) -> Any:
+    """The smallest T on a cable of this length, N. A light cable that sinks ever faster pulls least at the vessel."""
+    return np.minimum(tension(0.0, net, hung), tension(length, net, hung))
+
+
+def largest_tension(length: Real, net: Real, hung: Hanging) -> Any:
+    """The largest T on a cable of this length, N."""
+    return np.maximum(tension(0.0, net, hung), tension(length, net, hung))
+
+
+def slack_acceleration(length: Real, gravity: Real, hung: Hanging) -> Any:
+    """The downward acceleration of the cable, m/s2, at which T vanishes somewhere: g in air, less in water.
+
+    >>> round(float(slack_acceleration(500.0, 10.0, hanging(500.0, 2.0, 10.0, 4000.0, 0.0))), 6)
+    2.666667
+    """
+    still = net_gravity(gravity)
+    ends = (carried(s, hung) / inertial_tension(s, 1.0, hung) for s in (0.0, length))
+    return still - np.maximum(*ends)
