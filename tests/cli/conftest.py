@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from math import inf
 from pathlib import Path
 from typing import Any, NamedTuple, NoReturn
 
 import pytest
 
-from umbilical.cli import main
+from umbilical.cli import main, progress
 
 
 class Outcome(NamedTuple):
@@ -27,7 +28,10 @@ def _refuse(constant: str) -> NoReturn:
 
 
 @pytest.fixture
-def umbilical(capsys: pytest.CaptureFixture[str]) -> Callable[..., Outcome]:
+def umbilical(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Callable[..., Outcome]:
+    """The command line in this process; a slow machine must not put lines of progress into what a test compares."""
+    monkeypatch.setattr(progress, "PATIENCE_IN_LOGS", inf)
+
     def call(*arguments: object) -> Outcome:
         capsys.readouterr()
         code = main([str(argument) for argument in arguments])
