@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from umbilical.admission.findings import Finding, Notice, amount
 from umbilical.errors import Problem
-from umbilical.plant import winch as laws
+from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.control import AdaptiveAllocation, BoundaryLaw, Control, NoControl, ProportionalDerivative
 from umbilical.scenario.environment import Environment
@@ -184,7 +184,7 @@ def grid_near_the_payload(
     pull = tension(0.0, net_gravity(environment.gravity), hanging_of(cable, payload, environment))
     speed = sqrt(pull / cable.line_density)
     if isinstance(control.law, BoundaryLaw) and control.law.slope_gain >= _FELT_FROM * speed:
-        longest = float(laws.evaluate(winch, [0.0, duration]).length.max())
+        longest = float(top_at(winch, [0.0, duration]).length.max())
         band = 2.0 * pi * speed * grid.elements / longest
         yield Notice(
             "control.law.slope_gain",

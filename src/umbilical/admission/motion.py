@@ -11,9 +11,9 @@ import numpy as np
 from umbilical.admission.findings import Finding, amount
 from umbilical.admission.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.errors import Problem
-from umbilical.plant import signals
 from umbilical.plant import winch as laws
-from umbilical.relations.tension import hanging_of, net_gravity, slack_acceleration, smallest_tension
+from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
+from umbilical.relations.tension import hanging_of, slack_acceleration, smallest_tension
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.signals import Pulse, Step
@@ -29,14 +29,14 @@ _ACCELERATION_KEY = {**_SPEED_KEY, "trapezoid": "winch.acceleration"}
 _LENGTH_KEY = {**_SPEED_KEY, "constant": "winch.length", "cosine": "winch.amplitude"}
 
 
-def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
+def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | None:
     """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet."""
     law: Any = winch  # frozen records have a hash, which type checkers cannot see
     return _sampled_winch(law, duration)
 
 
 @lru_cache(maxsize=16)
-def _sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.WinchMotion] | None:
+def _sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | None:
     if any(True for _ in tables_of_the_winch(winch, duration)):
         return None
     marks = [0.0, duration, *laws.jumps(winch)]
@@ -44,8 +44,7 @@ def _sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, laws.Winc
         marks += list(np.arange(5) * np.pi / (2.0 * winch.frequency))  # all its extremes, however fast it is
     pieces = np.unique(np.clip(marks, 0.0, duration))
     t = np.unique(np.concatenate([np.linspace(0.0, duration, _EVEN_SAMPLES), _refined(pieces)]))
-    sides = laws.evaluate(winch, t, "left"), laws.evaluate(winch, t, "right")
-    return np.tile(t, 2), laws.WinchMotion(*(np.concatenate(pair) for pair in zip(*sides, strict=True)))
+    return np.tile(t, 2), top_on_both_sides(winch, t)
 
 
 def length(winch: Winch, duration: float) -> Iterator[Finding]:
@@ -93,7 +92,7 @@ def wave_speed(
     if not (sampled := sampled_winch(winch, duration)):
         return
     t, motion = sampled
-    net, hung = net_gravity(environment.gravity, motion.acceleration), hanging_of(cable, payload, environment)
+    net, hung = motion.net_gravity(environment.gravity), hanging_of(cable, payload, environment)
     slowest = np.sqrt(np.maximum(smallest_tension(_possible(motion.length), net, hung), 0.0) / cable.line_density)
     ratio = np.abs(motion.speed) - slowest
     worst = int(np.argmax(ratio))
@@ -131,8 +130,8 @@ def vessel_at_the_start(
     """The cable hangs on the vessel at t = 0 and is at rest there."""
     if any(True for _ in signals_of_the_environment(environment, duration)) or not sampled_winch(winch, duration):
         return
-    displacement, velocity = (part.item() for part in signals.vessel(environment, 0.0))
-    end, size = _upper_end(initial, laws.evaluate(winch, 0.0).length.item())
+    displacement, velocity = (part.item() for part in vessel_at(environment, 0.0))
+    end, size = _upper_end(initial, top_at(winch, 0.0).length.item())
     cure = "fade the vessel in with environment.vessel_ramp, or choose its phase and the initial shape to fit"
     if abs(displacement - end) > 1e-6 * max(size, 1.0):
         yield Problem(

@@ -12,9 +12,9 @@ from umbilical.admission.motion import sampled_winch
 from umbilical.admission.timeline import shapes, signals_of_the_environment
 from umbilical.errors import Problem
 from umbilical.plant import signals
-from umbilical.plant import winch as laws
 from umbilical.plant.exogenous import profile
-from umbilical.relations.tension import hanging_of, net_gravity, tension
+from umbilical.plant.top import top_at
+from umbilical.relations.tension import hanging_of, tension
 from umbilical.scenario.control import BoundaryLaw, Control, ProportionalDerivative
 from umbilical.scenario.environment import Environment, InitialShape
 from umbilical.scenario.hardware import Cable, Payload
@@ -77,9 +77,9 @@ def steady_slope(
     if not environment.cable_load and (not environment.payload_force or isinstance(control.law, BoundaryLaw)):
         return Steady(0.0, 0.0, True)
     t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
-    motion = laws.evaluate(winch, t)
+    motion = top_at(winch, t)
     length = motion.length[:, None]
-    net = net_gravity(environment.gravity, motion.acceleration)[:, None]
+    net = motion.net_gravity(environment.gravity)[:, None]
     pull = tension(length * (1.0 - sigma), net, hanging_of(cable, payload, environment))
     below = length * _from_below(_loads(environment, t, sigma), sigma)
     carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)

@@ -13,7 +13,7 @@ from umbilical.admission.timeline import MOST_STEPS
 from umbilical.errors import Problem
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.relations.instants import count_up
-from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension
+from umbilical.relations.tension import hanging_of, largest_tension, tension
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Motor, Payload
@@ -57,7 +57,7 @@ def wave_step(
     if not (sampled := sampled_winch(winch, duration)):
         return float("inf")  # the winch has its own problem
     _, motion = sampled
-    net, hung = net_gravity(environment.gravity, motion.acceleration), hanging_of(cable, payload, environment)
+    net, hung = motion.net_gravity(environment.gravity), hanging_of(cable, payload, environment)
     pull = np.maximum(largest_tension(motion.length, net, hung), 0.0)
     speed = np.sqrt(pull / cable.line_density) + np.abs(motion.speed)
     crossing = float(np.min(np.maximum(motion.length, 0.0) / speed))
@@ -109,7 +109,7 @@ def waves_that_leave(
     """The ROV loses momentum to the waves it sends up the cable, at the rate ``sqrt(rho T)/m``."""
     if not (sampled := sampled_winch(winch, duration)):
         return
-    net, hung = net_gravity(environment.gravity, sampled[1].acceleration), hanging_of(cable, payload, environment)
+    net, hung = sampled[1].net_gravity(environment.gravity), hanging_of(cable, payload, environment)
     pull = max(float(np.max(tension(0.0, net, hung))), 0.0)
     step, impedance = plant_step(control, grid), sqrt(cable.line_density * pull)
     limit = impedance * step / (_MARGIN * DECAY_LIMIT)

@@ -18,7 +18,8 @@ from umbilical.analysis.limits import Margins, margins
 from umbilical.analysis.nyquist import Stability, Sweep, near_poles, stability, sweep
 from umbilical.analysis.sampled import SampledLoop, has_loop, loop_response, sampled_loop
 from umbilical.errors import Problem, ScenarioError
-from umbilical.plant import signals, winch
+from umbilical.plant import signals
+from umbilical.plant.top import top_at
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
@@ -139,7 +140,7 @@ def usual_thrust(scenario: Scenario) -> float:
 
 def usual_lengths(scenario: Scenario) -> tuple[float, ...]:
     """Shortest, middle and longest length of the run, m; one where the winch stands still."""
-    lengths = winch.evaluate(scenario.winch, np.linspace(0.0, scenario.duration, INSTANTS)).length
+    lengths = top_at(scenario.winch, np.linspace(0.0, scenario.duration, INSTANTS)).length
     low, high = float(np.min(lengths)), float(np.max(lengths))
     return (low,) if high - low < 1e-9 * high else (low, 0.5 * (low + high), high)
 

@@ -19,11 +19,11 @@ from umbilical.engine.sensing import read_truth
 from umbilical.engine.simulate import set_up
 from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.frames import numbers
-from umbilical.plant import winch
 from umbilical.plant.cable import PRESENT, RATES
 from umbilical.plant.elements import DEGREE, WEIGHTS
 from umbilical.plant.exogenous import Outside, Steps
 from umbilical.plant.multistep import EXPLICIT
+from umbilical.plant.top import top_at
 from umbilical.scenario.scenario import Scenario
 
 SAMPLES = tuple(TipReadings.fields)
@@ -136,7 +136,7 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
     quiet = {"payload_force": [], "cable_load": [], "vessel_motion": []}
     return scenario.replace(
         {
-            "winch": {"law": "constant", "length": float(winch.evaluate(scenario.winch, time).length)},
+            "winch": {"law": "constant", "length": float(top_at(scenario.winch, time).length)},
             "initial": {"shape": "straight"},
             "motors": [],
             "faults": [],

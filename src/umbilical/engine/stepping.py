@@ -26,7 +26,7 @@ from umbilical.plant.initial import initial_slopes
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor, make_motors, thrust
 from umbilical.plant.multistep import EXPLICIT, IMPLICIT, KNOWN
 from umbilical.plant.power import Along, EndWorks, add_power, book_along, book_at_ends, make_along, strain_of_elements
-from umbilical.plant.signals import vessel
+from umbilical.plant.top import vessel_at
 from umbilical.scenario.scenario import Scenario
 
 
@@ -120,7 +120,7 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         work=make_along(elements),
     )
     now = state.now[0]
-    now.outside.vessel_displacement = float(vessel(scenario.environment, 0.0)[0])
+    now.outside.vessel_displacement = float(vessel_at(scenario.environment, 0.0)[0])
     add_up_displacement(state.blocks[PRESENT], state.starts, now.outside.vessel_displacement)
     now.ends.tip_displacement = state.starts[elements]
     return state

@@ -17,8 +17,8 @@ import numpy as np
 from umbilical.frames import Frame, real
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
+from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.instants import slack
-from umbilical.relations.tension import net_gravity, relative_jerk
 from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import Winch
@@ -148,7 +148,7 @@ class Outside:
             inputs.world[name].T[:] = row[:2]
         if environment.vessel_motion:
             motion = [inputs.world["vessel_displacement"].T, inputs.world["vessel_velocity"].T]
-            _fill(motion, lambda t, side: signals.vessel(environment, t, side), steps, middle=False)
+            _fill(motion, lambda t, side: vessel_at(environment, t, side), steps, middle=False)
         _fill_signal(inputs.world["payload_force"].T, environment.payload_force, steps, middle=False)
         for k, load in enumerate(environment.cable_load):
             _fill_signal(inputs.loads[:, k].T, load.signal, steps, middle=False)
@@ -183,9 +183,8 @@ def _winch_at(law: Winch, gravity: float, steps: Steps) -> Array:
     """Winch and what follows from it, rows as :data:`WINCH` names them."""
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
-        length, speed, acceleration, jerk = winch.evaluate(law, t, side)
-        net = net_gravity(gravity, acceleration)
-        return length, speed, acceleration, net, relative_jerk(jerk, net)
+        top = top_at(law, t, side)
+        return top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity)
 
     rows = np.zeros((len(WINCH), 3, steps.start.size))
     _fill(rows, motion, steps, middle=False)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.plant import winch
 from umbilical.plant.elements import DEGREE, interpolation_row
 from umbilical.plant.signals import spline
-from umbilical.relations.tension import hanging_of, net_gravity, tension
+from umbilical.plant.top import top_at
+from umbilical.relations.tension import hanging_of, tension
 from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
@@ -36,7 +36,7 @@ def _projection() -> np.ndarray:
 
 def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
     """d/dsigma of the initial shape at any positions x/l, m, same shape as ``sigma``."""
-    motion = winch.evaluate(scenario.winch, 0.0)
+    motion = top_at(scenario.winch, 0.0)
     length = float(motion.length)
     above = length * (1.0 - sigma)
     shape = scenario.initial
@@ -48,7 +48,7 @@ def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
             return 2.0 * length / shape.width * off * shape.amplitude * np.exp(-(off**2))
         case StaticShape():
             # Under a steady force P on the ROV, y_x = P/T everywhere.
-            net = net_gravity(scenario.environment.gravity, float(motion.acceleration))
+            net = float(motion.net_gravity(scenario.environment.gravity))
             hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
             return length * shape.force / tension(above, net, hung)
         case TableShape():

@@ -11,9 +11,10 @@ from umbilical.analysis.certificate.loads import Loads
 from umbilical.analysis.certificate.ranges import ROUNDING
 from umbilical.analysis.certificate.records import Certificate, Ranges, Start, Weights
 from umbilical.analysis.certificate.setting import Loop
-from umbilical.plant import signals, winch
+from umbilical.plant import signals
 from umbilical.plant.signals import spline
-from umbilical.relations.tension import net_gravity, tension
+from umbilical.plant.top import top_at
+from umbilical.relations.tension import tension
 from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
@@ -63,8 +64,8 @@ def _of_vessel(loop: Loop, ranges: Ranges, weights: Weights, velocity: float) ->
 
 def start_of(loop: Loop, scenario: Scenario) -> Start:
     """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
-    motion = winch.evaluate(scenario.winch, 0.0)
-    length, net = float(motion.length), net_gravity(loop.g, float(motion.acceleration))
+    motion = top_at(scenario.winch, 0.0)
+    length, net = float(motion.length), float(motion.net_gravity(loop.g))
     x = np.linspace(0.0, length, 16 * POINTS + 1)
     pull = tension(length - x, net, loop.hanging)
     slope = _initial_slope(scenario, length, pull)(x)

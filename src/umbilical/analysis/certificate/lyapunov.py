@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.certificate.records import Weights
-from umbilical.plant import signals, winch
+from umbilical.plant import signals
 from umbilical.plant.exogenous import profile
-from umbilical.relations.tension import hanging_of, inertial_tension, net_gravity, relative_jerk, tension, tension_gain
+from umbilical.plant.top import top_at, vessel_at
+from umbilical.relations.tension import hanging_of, inertial_tension, net_gravity, tension, tension_gain
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
@@ -100,9 +101,9 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
     time, lam, offset = np.asarray(run["time"]), weights.cross, weights.vessel
     speed, length = np.asarray(run["payout_speed"]), np.asarray(run["length"])
     net = net_gravity(scenario.environment.gravity, np.asarray(run["payout_acceleration"]))
-    jerk = relative_jerk(winch.evaluate(scenario.winch, time).jerk, net)
+    jerk = top_at(scenario.winch, time).relative_jerk(scenario.environment.gravity)
     p_0, p_l, w_l = (np.asarray(run[name]) for name in ("vessel_slope", "tip_slope", "tip_velocity"))
-    e_rate = signals.vessel(scenario.environment, time)[1]
+    e_rate = vessel_at(scenario.environment, time)[1]
     reach, at_tip = offset + lam * f.q, offset + lam * length
     hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
     top, foot = tension(length, net, hung) - rho * speed**2, tension(0.0, net, hung)

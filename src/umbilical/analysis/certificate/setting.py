@@ -10,7 +10,8 @@ import numpy as np
 
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import winch as laws
-from umbilical.relations.tension import Hanging, hanging, net_gravity, relative_jerk
+from umbilical.plant.top import top_within
+from umbilical.relations.tension import Hanging, hanging, net_gravity
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import ConstantLength, Cosine, Winch
@@ -119,11 +120,8 @@ def slab_edges(winch: Winch, duration: float) -> np.ndarray:
 def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Motion:
     """The winch at :data:`SAMPLES` instants of each slab; limits at its ends are those from inside."""
     t = np.linspace(edges[:-1], edges[1:], SAMPLES, axis=1)
-    right, left = laws.evaluate(winch, t, "right"), laws.evaluate(winch, t, "left")
-    last = np.arange(SAMPLES) == SAMPLES - 1
-    length, speed, acceleration, jerk = (np.where(last, b, f) for f, b in zip(right, left, strict=True))
-    net = net_gravity(gravity, acceleration)
-    return Motion(t, length, speed, acceleration, net, relative_jerk(jerk, net))
+    top = top_within(winch, t)
+    return Motion(t, top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity))
 
 
 def stopped(motion: Motion, gravity: float) -> Motion:
