@@ -35,6 +35,11 @@ def console(page: Path) -> list[str]:
     return [line for line in done.stderr.splitlines() if "CONSOLE" in line]
 
 
+def dump(page: Path) -> str:
+    """The page after five seconds of its own time."""
+    return _call(page, "--virtual-time-budget=5000", "--dump-dom").stdout
+
+
 def width(page: Path, window: int) -> int:
     """How wide the page is, in pixels, in a window that wide; measured in a copy with a script."""
     copy = page.with_name(f"measured-{page.name}")

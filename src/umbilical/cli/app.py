@@ -12,6 +12,7 @@ import typer
 
 from umbilical import __version__
 from umbilical.cli import (
+    animating,
     benching,
     certifying,
     designing,
@@ -54,6 +55,7 @@ for command in (
     reading.compare,
     reading.export,
     drawing.plot,
+    animating.animate,
     certifying.certify,
     reproducing.reproduce,
     judging.margins,

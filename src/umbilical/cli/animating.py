@@ -1,0 +1,44 @@
+"""``umbilical animate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from typer import Argument, Option
+
+from umbilical.cli.speech import say
+from umbilical.cli.targets import check_target
+
+
+def animate(
+    file: Annotated[Path, Argument(help="A .nc result of a run.")],
+    compare: Annotated[
+        Path | None, Option("--compare", metavar="FILE", help="Another result, on the same clock.")
+    ] = None,
+    out: Annotated[Path | None, Option("--out", metavar="FILE", help="An .html file.")] = None,
+    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Write one HTML file that plays a run in any browser, without network.
+
+    Without --out the page lies beside the result.
+
+    \b
+    examples
+      umbilical animate paper.nc
+      umbilical animate paper.nc --compare free.nc --out both.html
+    """
+    target = out or file.with_suffix(".html")
+    check_target(target, ("html",), force=force)
+    from umbilical import files
+    from umbilical.errors import FileError
+    from umbilical.report.player import player
+    from umbilical.run import open_run
+
+    runs = [open_run(path) for path in (file, compare) if path]
+    try:
+        page = player(*runs)
+    except ValueError as error:
+        raise FileError(str(error)) from error
+    written = files.write(target, page.encode("utf-8"), force=force)
+    say(f"{written}: {len(page) / 1e3:.0f} kB, plays {' and '.join(run.scenario.name for run in runs)}")

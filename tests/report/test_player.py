@@ -1,0 +1,108 @@
+"""The page that plays a run: what it holds, how large it is, and that it runs in a browser."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.support import browser
+from umbilical import Run, load, simulate
+from umbilical.report import player as page
+
+
+@pytest.fixture(scope="module")
+def run() -> Run:
+    return simulate(load("paper-stuck", {"duration": 12.0}))
+
+
+@pytest.fixture(scope="module")
+def free() -> Run:
+    return simulate(load("crosscheck-none", {"duration": 4.0}))
+
+
+def film(text: str) -> dict[str, Any]:
+    found = re.search(r'<script id="data" type="application/json">(.*?)</script>', text, flags=re.DOTALL)
+    assert found
+    return json.loads(found[1])
+
+
+def floats(text: str) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), "<f4")
+
+
+def test_the_page_holds_the_run(run: Run) -> None:
+    (reel,) = film(page.player(run))["runs"]
+    shape = np.frombuffer(base64.b64decode(reel["y"]), "<i2").reshape(-1, reel["nodes"]) * reel["step"]
+    time = floats(reel["time"])
+    tip = run["tip_displacement"].sel(time=time, method="nearest").values
+    assert np.allclose(shape[:, -1], tip, atol=2.0 * reel["step"])
+    assert time[-1] == pytest.approx(12.0)
+    assert np.allclose(
+        floats(reel["end"]), 500.0 * (10.0 - run["payout_acceleration"].sel(time=time, method="nearest"))
+    )
+    assert [panel["title"] for panel in reel["panels"]][-1] == "motor voltage [V]"
+
+
+def test_faults_are_events(run: Run) -> None:
+    assert film(page.player(run))["events"] == [{"time": 10.0, "text": "motor 2: stuck"}]
+
+
+def test_two_runs_share_a_page(run: Run, free: Run) -> None:
+    assert [reel["name"] for reel in film(page.player(run, free))["runs"]] == ["paper-stuck", "crosscheck-none"]
+
+
+def test_the_same_run_gives_the_same_bytes_and_no_address(run: Run) -> None:
+    text = page.player(run)
+    assert text == page.player(run)
+    assert "http" not in text.replace("http-equiv", "")
+    assert len(text) < 1_000_000
+
+
+def test_a_name_cannot_leave_its_element(free: Run) -> None:
+    evil = simulate(free.scenario.replace({"name": "</script><script>lost()//"}))
+    assert "<script>lost" not in page.player(evil)
+
+
+def test_a_long_run_is_thinned_and_says_so(free: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(page, "BUDGET", 10_000)
+    text = page.player(free)
+    assert "thinned to" in film(text)["thinned"]
+    assert len(json.dumps(film(text))) < 12_000
+
+
+def test_a_run_without_samples_is_refused(free: Run) -> None:
+    nothing = Run(free.data.isel(time=slice(0, 1)), free.scenario)
+    with pytest.raises(ValueError, match="anything to play"):
+        page.player(nothing)
+
+
+@pytest.mark.slow
+@pytest.mark.browser
+@pytest.mark.skipif(browser.PROGRAM is None, reason="no Chromium on this machine")
+class TestInABrowser:
+    @pytest.fixture
+    def stored(self, run: Run, free: Run, tmp_path: Path) -> Path:
+        path = tmp_path / "run.html"
+        path.write_text(page.player(run, free), encoding="utf-8")
+        return path
+
+    def test_the_console_is_silent_and_nothing_is_wider_than_a_phone(self, stored: Path) -> None:
+        assert browser.console(stored) == []
+        assert browser.width(stored, 420) <= 420
+
+    def test_time_advances_and_keys_step(self, stored: Path) -> None:
+        """1.5 s between two drawn frames play 1.5 s of the run; End and one step back end one frame before the last."""
+        press = 'document.dispatchEvent(new KeyboardEvent("keydown", {key: "%s"}));'
+        script = (
+            "<script>go(0); set(true); last = 0; tick(1000); tick(2500); const played = time[frame].toFixed(1);"
+            f"{press % 'End'}{press % 'ArrowLeft'}"
+            "document.title = `played ${played} s, ${frames - 1 - frame} before the end`;</script>"
+        )
+        stored.write_text(stored.read_text(encoding="utf-8").replace("</body>", f"{script}</body>"), encoding="utf-8")
+        assert "<title>played 1.5 s, 1 before the end</title>" in browser.dump(stored)
