@@ -55,6 +55,7 @@ class Volts:
         return Command(voltage=np.array([100.0, 0.0])), state
 
 
+@pytest.mark.nojit
 def test_voltages_without_a_thrust_leave_no_gap_and_no_effort() -> None:
     run = umbilical.simulate(umbilical.load("paper", {"duration": 0.1} | LIMITS), Volts())
     assert not {"effort_rms", "thrust_gap"} & run.metrics.keys()
