@@ -2,8 +2,8 @@
 
 Nothing here is shared with the search but the formula of the tension: the conditions are written anew from
 docs/certificates.md, and the winch laws are those of ``proof_motion.py``. Numbers of the scenario and of the
-certificate enter exactly as they are stored. In x every condition is a polynomial of degree 2 at most; it is positive
-on [0, l] if its three Bernstein coefficients are. In t a box is halved until its intervals decide.
+certificate enter exactly as they are stored. In x every condition is a line, or a line minus a positive multiple of the
+square of one: it is least at an end of [0, l]. In t a box is halved until its intervals decide.
 """
 
 from __future__ import annotations
