@@ -6,6 +6,7 @@ from typing import Annotated
 
 from typer import Option
 
+from umbilical.cli.options import Json
 from umbilical.cli.speech import say, say_json, table
 
 
@@ -13,7 +14,7 @@ def bench(
     repeat: Annotated[int, Option("--repeat", min=1, max=1000, help="Runs per row; the median counts.")] = 15,
     members: Annotated[int, Option("--members", min=0, help="Members of a study that are run; 0 for none.")] = 40,
     cold: Annotated[bool, Option("--cold", help="Also compile everything anew, with an empty cache.")] = False,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Measure how long the paper's 50 s take here.
 

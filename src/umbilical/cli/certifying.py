@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Changes, Force, Json, Plot
 from umbilical.cli.running import load_changed
 from umbilical.cli.speech import shown_unit, table
 from umbilical.cli.targets import PICTURES, check_target
@@ -27,13 +28,11 @@ SCATTER = 1e-3
 
 def certify(
     scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     audit: Annotated[bool, Option("--audit", help="Simulate the ideal and the real loop, and compare.")] = False,
-    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    plot: Plot = None,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Prove how fast the ideal loop calms down over the whole run, or say what stands against it.
 

@@ -10,6 +10,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.judging import document as margins_document
 from umbilical.cli.judging import rows as margin_rows
+from umbilical.cli.options import Changes, Force, Json, Plot, Thrust
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.running import load_changed
 from umbilical.cli.speech import say, say_json, table
@@ -24,9 +25,7 @@ Objective = Literal["ringdown", "rejection", "both"]
 
 def design(
     scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     objective: Annotated[Objective, Option("--objective", help="What the gains shall serve.")] = "both",
     inner: Annotated[bool, Option("--inner", help="Choose the motor loops' gains, too.")] = False,
     periods: Annotated[
@@ -38,13 +37,11 @@ def design(
     limits: Annotated[
         str | None, Option("--limits", metavar="NAME=VALUE,...", help="voltage (V), speed (rad/s), chatter (V).")
     ] = None,
-    operating_thrust: Annotated[
-        float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
-    ] = None,
+    operating_thrust: Thrust = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Store the new scenario.")] = None,
-    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    plot: Plot = None,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Choose gains for the thrusters a scenario has, with margins, and try them in a simulation.
 

@@ -8,10 +8,9 @@ import sys
 import tempfile
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from typer import Option
-
+from umbilical.cli.options import Json
 from umbilical.cli.speech import say, say_json, table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
@@ -19,7 +18,7 @@ PARTNERS = ("control", "gymnasium", "optuna", "dask", "moordyn", "wavespectra")
 
 
 def doctor(
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    as_json: Json = False,
 ) -> int:
     """Show versions, folders and cores, to send along with a question.
 

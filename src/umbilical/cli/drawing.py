@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from typer import Argument, BadParameter, Option
 
+from umbilical.cli.options import Force
 from umbilical.cli.speech import say
 from umbilical.cli.targets import PICTURES, check_target
 
@@ -30,7 +31,7 @@ def plot(
     y: Annotated[str | None, Option("--y", metavar="DRAW", help="Of a map: what is drawn, upwards.")] = None,
     arm: Annotated[str | None, Option("--arm", metavar="NAME", help="Of a map or a sensitivity: which arm.")] = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE", help="A .png, .pdf or .svg.")] = None,
-    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+    force: Force = False,
 ) -> None:
     """Draw a result. Without --out the picture is a .png beside the result.
 

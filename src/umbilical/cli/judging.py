@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Changes, Force, Json, Plot, Thrust
 from umbilical.cli.progress import bar
 from umbilical.cli.running import load_changed
 from umbilical.cli.speech import table
@@ -30,24 +31,20 @@ SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency t
 
 def margins(
     scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     lengths: Annotated[
         str | None, Option("--lengths", metavar="L1,L2,...", help="Cable lengths, m; default those of the run.")
     ] = None,
-    operating_thrust: Annotated[
-        float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")
-    ] = None,
+    operating_thrust: Thrust = None,
     grid: Annotated[
         str | None,
         Option(
             "--grid", metavar="N1,N2,N3", help="Elements of the grids to ask, 0 for none; 32,64,128, if need be 256."
         ),
     ] = None,
-    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    plot: Plot = None,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Stability and margins of the sampled loop with its motors, from the exact cable.
 

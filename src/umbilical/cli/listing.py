@@ -7,6 +7,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
+from umbilical.cli.options import Force
 from umbilical.cli.speech import say, table
 
 
@@ -15,7 +16,7 @@ def presets(
     copy: Annotated[
         tuple[str, Path] | None, Option("--copy", metavar="NAME FILE", help="Copy a preset to a file of yours.")
     ] = None,
-    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+    force: Force = False,
 ) -> None:
     """List, print or copy the scenarios and studies that come along.
 

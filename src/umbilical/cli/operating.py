@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Changes, Force, Json, Plot
 from umbilical.cli.speech import table
 from umbilical.cli.targets import PICTURES, check_target
 
@@ -17,10 +18,6 @@ if TYPE_CHECKING:
     from umbilical.screening import Lowering, Operability, Operation
 
 Source = Annotated[str, Argument(help="An operation that comes along (work-class), or a .toml file.")]
-Changes = Annotated[list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")]
-Plot = Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")]
-Json = Annotated[bool, Option("--json", help="Print one JSON object instead of text.")]
-Force = Annotated[bool, Option("--force", help="Replace existing files.")]
 RANGE = "FROM:TO:COUNT, or values with commas"
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, BadParameter, Option
 
+from umbilical.cli.options import Force, Json
 from umbilical.cli.speech import run_document, say, say_json, shown_unit, table
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def show(
     against: Annotated[
         str | None, Option("--against", metavar="ARM", help="Of a study: compare with this arm; the first if left out.")
     ] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Show a result's metrics, what a study found, or the values of a scenario and what is assumed.
 
@@ -118,7 +119,7 @@ def _shortened(value: str) -> str:
 
 def compare(
     files: Annotated[list[Path], Argument(help="Two or more .nc results; ratios are to the first.")],
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Compare the metrics of results, side by side with ratios.
 
@@ -161,7 +162,7 @@ def export(
     file: Annotated[Path, Argument(help="A .nc result.")],
     to: Annotated[Literal["csv", "mat"], Option("--to", help="csv: channels over time; mat: every array, for MATLAB.")],
     out: Annotated[Path | None, Option("--out", metavar="FILE", help="Beside the result if left out.")] = None,
-    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+    force: Force = False,
 ) -> None:
     """Write a result for other tools.
 

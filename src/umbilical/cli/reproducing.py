@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Force, Json
 from umbilical.cli.speech import tell
 from umbilical.cli.targets import make_room
 
@@ -21,8 +22,8 @@ def reproduce(
     out: Annotated[Path, Option("--out", metavar="DIR", help="Folder for the files; made if missing.")] = Path("paper"),
     maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2300 runs.")] = True,
     check: Annotated[bool, Option("--check", help="Exit with 7 if a published number or verdict has moved.")] = False,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Reproduce the paper: every figure with its data, every claim with a verdict, one report.
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
+from umbilical.cli.options import Changes, Force, Json, Plot
 from umbilical.cli.speech import run_document, say, say_json, tell
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.errors import Problem, ScenarioError
@@ -19,13 +20,11 @@ if TYPE_CHECKING:
 
 def run(
     scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result to run again.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.nc", help="Store the result (NetCDF4).")] = None,
-    plot: Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    plot: Plot = None,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Simulate a scenario. Without --out nothing is stored.
 

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
+from umbilical.cli.options import Anew, Changes, Force, Json, Resume, Trust
 from umbilical.cli.speech import say, tell
 from umbilical.errors import FileError
-
-TRUST = Option("--trust", help="Import the Python controllers that the study names, which runs their code.")
 
 if TYPE_CHECKING:
     from umbilical.studies.engines import Engine
@@ -20,19 +19,17 @@ if TYPE_CHECKING:
 
 def sweep(
     study: Annotated[str, Argument(help="A study's name, a .toml file, or the .nc result of one to run again.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value of the study; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; named as the study if left out.")] = None,
     jobs: Annotated[
         int | None, Option("--jobs", metavar="N", min=1, max=4096, help="How many at once; all cores.")
     ] = None,
     processes: Annotated[bool, Option("--processes", help="Processes instead of threads.")] = False,
     dask: Annotated[str | None, Option("--dask", metavar="ADDRESS|local", help="Workers of a Dask cluster.")] = None,
-    trust: Annotated[bool, TRUST] = False,
-    resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
-    force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    trust: Trust = False,
+    resume: Resume = False,
+    force: Anew = False,
+    as_json: Json = False,
 ) -> int:
     """Run a study: every member in every arm.
 
@@ -123,7 +120,7 @@ def member(
     changes: Annotated[
         list[str] | None, Option("--set", metavar="KEY=VALUE", help="The study's changes; may be repeated.")
     ] = None,
-    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+    force: Force = False,
 ) -> None:
     """Print the scenario of one member of a study, to run it alone.
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from typer import Argument, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Anew, Changes, Json, Resume, Trust
 from umbilical.cli.speech import table, tell
-from umbilical.cli.sweeping import TRUST, load_changed_study, refuse_code_of_results
+from umbilical.cli.sweeping import load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -21,9 +22,7 @@ _SHOWN = 12
 
 def tune(
     study: Annotated[str, Argument(help="A study with a section [tuning]: its name or a .toml file.")],
-    changes: Annotated[
-        list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value of the study; may be repeated.")
-    ] = None,
+    changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; NAME-tuned if left out.")] = None,
     optimiser: Annotated[
         Literal["auto", "optuna", "scipy"], Option("--optimiser", help="auto: Optuna where it is installed.")
@@ -34,10 +33,10 @@ def tune(
     picture: Annotated[
         Path | None, Option("--plot", metavar="FILE", help="Draw the front: a .png, .pdf or .svg.")
     ] = None,
-    trust: Annotated[bool, TRUST] = False,
-    resume: Annotated[bool, Option("--resume", help="Go on with what is in the folder.")] = False,
-    force: Annotated[bool, Option("--force", help="Begin anew, and remove what is in the folder.")] = False,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
+    trust: Trust = False,
+    resume: Resume = False,
+    force: Anew = False,
+    as_json: Json = False,
 ) -> int:
     """Search for gains with which the members of a study do best.
 

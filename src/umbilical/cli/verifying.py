@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.options import Force, Json
 from umbilical.cli.speech import table
 from umbilical.cli.targets import make_room
 
@@ -21,8 +22,8 @@ FILES = ("verification.md", "verification.json", "convergence.svg")
 def verify(
     quick: Annotated[bool, Option("--quick", help="Half a minute: leave out what takes long.")] = False,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Write table, data and pictures there.")] = None,
-    as_json: Annotated[bool, Option("--json", help="Print one JSON object instead of text.")] = False,
-    force: Annotated[bool, Option("--force", help="Replace existing files.")] = False,
+    as_json: Json = False,
+    force: Force = False,
 ) -> int:
     """Compare this installation with closed forms, classical solutions and other codes.
 
