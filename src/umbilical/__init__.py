@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from umbilical.analysis.certificate import Certificate, certify
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.design.margins import margins
+    from umbilical.engine.episode import Episode
     from umbilical.engine.simulate import simulate
     from umbilical.interop.python_control import to_control
     from umbilical.plots import (
@@ -52,6 +53,7 @@ _HOMES = {
     "Certificate": "umbilical.analysis.certificate",
     "Command": "umbilical.control.contract",
     "Controller": "umbilical.control.contract",
+    "Episode": "umbilical.engine.episode",
     "Measurement": "umbilical.control.contract",
     "Run": "umbilical.run",
     "Scenario": "umbilical.scenario",
@@ -91,6 +93,7 @@ __all__ = [
     "Certificate",
     "Command",
     "Controller",
+    "Episode",
     "Measurement",
     "Run",
     "Scenario",

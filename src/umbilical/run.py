@@ -48,6 +48,8 @@ SECOND_DIMENSION = {name: q.over for name, q in CHANNELS.items() if q.over}
 """What a channel depends on besides time; a channel not named here depends on time alone."""
 
 _METRIC = "metric_"
+_LOGGED = "controller_"
+_OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
 
 
 class Status(Enum):
@@ -180,6 +182,7 @@ def assemble(
     timing: Mapping[str, float] | None = None,
     notices: Sequence[str] = (),
     sigma: np.ndarray | None = None,
+    logged: Mapping[str, np.ndarray] | None = None,
 ) -> Run:
     """Put names, units and the scenario to the arrays of a simulation.
 
@@ -195,6 +198,7 @@ def assemble(
         timing: seconds spent, by part; kept in memory only.
         notices: what the user should know.
         sigma: positions of the nodes, x/l, where they are not evenly spaced.
+        logged: what a user's controller logged, by its names, shape (time,).
 
     Raises:
         KeyError: a channel or metric has no words in :mod:`umbilical.quantities`.
@@ -203,6 +207,7 @@ def assemble(
     import xarray
 
     variables = {name: _channel(name, values) for name, values in channels.items()}
+    variables |= {_LOGGED + name: (("time",), values, _OF_CONTROLLER) for name, values in (logged or {}).items()}
     variables |= {_METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
     ending = {
         "status": status.name,

@@ -14,6 +14,7 @@ NAMES = {
     "Certificate",
     "Command",
     "Controller",
+    "Episode",
     "Measurement",
     "Run",
     "Scenario",

@@ -75,7 +75,7 @@ def test_a_motor_that_runs_away_is_noticed() -> None:
 
 
 def test_interrupted_between_stretches(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("umbilical.engine.simulate.STEPS_AT_ONCE", 20)
+    monkeypatch.setattr("umbilical.engine.schedule.STEPS_AT_ONCE", 20)
     shares: list[float] = []
 
     def progress(share: float) -> None:

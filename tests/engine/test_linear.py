@@ -11,7 +11,7 @@ from umbilical.engine.linear import linearise, step_matrix, step_poles
 from umbilical.engine.loop import World, advance_period
 from umbilical.engine.schedule import stretch
 from umbilical.engine.sensing import read_truth
-from umbilical.engine.simulate import set_up
+from umbilical.engine.setup import set_up
 from umbilical.engine.stepping import enter_step
 from umbilical.frames import numbers
 from umbilical.plant.cable import PRESENT

@@ -154,7 +154,7 @@ def motors_that_never_quite_die(patch: pytest.MonkeyPatch) -> None:
 
 
 def jumps_that_nobody_publishes(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr("umbilical.engine.simulate.published_jumps", lambda scenario: ())
+    patch.setattr("umbilical.engine.setup.published_jumps", lambda scenario: ())
 
 
 def high_gain_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:

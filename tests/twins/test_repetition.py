@@ -30,7 +30,7 @@ def busy(**overrides: object) -> Scenario:
 @pytest.mark.parametrize("steps", [1, 7, 60])
 def test_stretches_do_not_matter(steps: int, monkeypatch: pytest.MonkeyPatch) -> None:
     whole = run(busy())
-    monkeypatch.setattr("umbilical.engine.simulate.STEPS_AT_ONCE", steps)
+    monkeypatch.setattr("umbilical.engine.schedule.STEPS_AT_ONCE", steps)
     cut = run(busy())
     xarray.testing.assert_identical(cut.data, whole.data)
 
@@ -41,7 +41,7 @@ def test_stretches_do_not_matter_with_a_python_controller(monkeypatch: pytest.Mo
 
     scenario = busy(duration=0.03)
     whole = run(scenario, Cascade(scenario))
-    monkeypatch.setattr("umbilical.engine.simulate.STEPS_AT_ONCE", 5)
+    monkeypatch.setattr("umbilical.engine.schedule.STEPS_AT_ONCE", 5)
     xarray.testing.assert_identical(run(scenario, Cascade(scenario)).data, whole.data)
 
 

@@ -14,6 +14,7 @@ A user's controller is an ordinary Python class::
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
@@ -56,10 +57,12 @@ class Command:
     Attributes:
         thrust: commanded thrust, N. Alone, it goes through the scenario's allocation and motor loops.
         voltage: motor voltages, V, shape (motors,). Alone or with ``thrust``, they go to the drives as they are.
+        log: numbers of the controller's own to keep in the run, as the channels ``controller_NAME``.
     """
 
     thrust: float | None = None
     voltage: np.ndarray | None = None
+    log: Mapping[str, float] | None = None
 
 
 @runtime_checkable

@@ -16,7 +16,7 @@ from scipy import sparse
 from umbilical.control.contract import TipReadings
 from umbilical.engine.loop import World
 from umbilical.engine.sensing import read_truth
-from umbilical.engine.simulate import set_up
+from umbilical.engine.setup import set_up
 from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.frames import numbers
 from umbilical.plant.cable import PRESENT, RATES

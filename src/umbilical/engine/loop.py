@@ -1,20 +1,20 @@
 """The two loops, one semantics: measure -> decide -> actuate -> advance, once per control period.
 
-``run_steps`` is compiled from end to end for the built-in controller. ``run_python`` calls the same kernels
-for everything but the decision, which may be any Python object; with the built-in controller behind the
-Python contract it gives the same bits (tests/twins).
+``run_steps`` decides by the built-in controller, ``run_held`` holds a command that came from outside until the
+next one (:mod:`umbilical.engine.episode`); with the built-in controller behind the Python contract both give the
+same bits (tests/twins).
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.compile import entry_kernel, glue
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
-from umbilical.control.contract import Command, Controller, Decision, Readings, to_measurement
+from umbilical.control.contract import Command, Decision, Readings
 from umbilical.engine.recording import Log, Tally, measure, store
 from umbilical.engine.sensing import Sensors, SensorState, sense
 from umbilical.engine.stepping import Plant, PlantState, advance, enter_step
@@ -109,80 +109,47 @@ def advance_period(world: World, inputs: Inputs, begin: int, end: int) -> None:
         advance(world.plant, world.state, inputs, i, world.decision.motors)
 
 
-class BuiltIn:
-    """The compiled loop around the scenario's own controller."""
-
-    def __init__(self, world: World, settings: CascadeSettings, memory: CascadeState, record: Record) -> None:
-        self._world, self._settings, self._record = world, settings, record
-        self._memory = memory
-
-    def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
-        """As :func:`run_steps`."""
-        return run_steps(self._world, self._settings, self._memory, self._record, inputs, first, noise, begin)
+@entry_kernel
+def observe(world: World, inputs: Inputs, first: np.ndarray, noise: np.ndarray, j: int) -> None:
+    """What comes before a decision in period j of a stretch: the outside world after a jump, then the sensors."""
+    if first[j] < first[j + 1] and inputs.refresh[first[j]]:
+        enter_step(world.plant, world.state, inputs, first[j])
+    sense(world.sensors, world.memory, noise, j, world.state, world.readings)
 
 
-class Python:
-    """The same loop around any controller.
+@entry_kernel
+def run_held(
+    world: World,
+    settings: CascadeSettings,
+    memory: CascadeState,
+    record: Record,
+    inputs: Inputs,
+    first: np.ndarray,
+    noise: np.ndarray,
+    begin: int,
+    periods: tuple[int, int],
+    driven: bool,
+    decided: bool,
+) -> int:
+    """Hold a command over some periods of the stretch that begins at ``begin``; the first is observed already.
 
-    A controller that gives thrust only is followed by the scenario's allocation (known factors) and motor
-    loops, which go on at the scenario's own period while the controller is called at its.
+    ``driven``: the command is a thrust, which allocation (if it has just been ``decided``) and motor loops turn into
+    voltages. Returns as :func:`run_steps`.
     """
-
-    def __init__(
-        self, world: World, drive: CascadeSettings, memory: CascadeState, record: Record, controller: Controller,
-        period: float, every: int, ideal_velocity: bool,
-    ) -> None:  # fmt: skip
-        self._world, self._controller, self._drive, self._record = world, controller, drive, record
-        self._memory = memory
-        self._period, self._every, self._ideal_velocity = period, every, ideal_velocity
-        self._state: Any = None
-        self._through_motors = False
-
-    def run(self, inputs: Inputs, first: np.ndarray, noise: np.ndarray, begin: int) -> int:
-        """As :func:`run_steps`."""
-        world = self._world
-        for j in range(first.size - 1):
-            if first[j] < first[j + 1] and inputs.refresh[first[j]]:
-                enter_step(world.plant, world.state, inputs, first[j])
-            sense(world.sensors, world.memory, noise, j, world.state, world.readings)
-            self._update(begin + j)
-            actuate(world)
-            if not keep(world, self._record, begin + j, self._memory.kappa):
-                return begin + j
-            advance_period(world, inputs, first[j], first[j + 1])
-        return FINISHED
-
-    def _update(self, update: int) -> None:
-        """One control instant: the controller at its own period, the motor loops at theirs."""
-        world = self._world
-        if update == 0:
-            cascade.start(self._drive, self._memory, world.readings)
-        if update % self._every == 0:
-            self._decide(update)
-        if self._through_motors:
-            cascade.update_motors(self._drive.motors, self._memory, world.readings, world.decision)
-        self._memory.outer[0].updates += 1
-
-    def _decide(self, update: int) -> None:
-        """Ask the controller, and put its command where the kernels find it."""
-        world, t = self._world, update * self._period
-        measurement = to_measurement(world.readings, self._ideal_velocity)
-        try:
-            if update == 0:
-                self._state = self._controller.start(measurement)
-            command, self._state = self._controller.update(t, measurement, self._state)
-        except KeyboardInterrupt:
-            raise
-        except BaseException as error:  # sys.exit() of a controller ends its run, not the program around it
-            name = type(self._controller).__name__
-            raise ControllerError(f"{name} failed at t = {t:g} s: {type(error).__name__}: {error}") from error
-        check_command(command, world, t, can_drive=self._drive.motors.driven)
-        world.decision.outer[0].thrust_command = np.nan if command.thrust is None else command.thrust
-        if command.voltage is not None:
-            world.decision.motors["motor_voltage"] = command.voltage
-        self._through_motors = command.voltage is None and not world.plant.ideal
-        if self._through_motors:
-            cascade.allocate(self._drive.motors, self._memory, world.decision)
+    for j in range(periods[0], periods[1]):
+        if j > periods[0]:
+            observe(world, inputs, first, noise, j)
+        if driven:
+            if decided and j == periods[0]:
+                cascade.allocate(settings.motors, memory, world.decision)
+            cascade.update_motors(settings.motors, memory, world.readings, world.decision)
+        memory.outer[0].updates += 1
+        actuate(world)
+        good = keep(world, record, begin + j, memory.kappa)
+        if not good:
+            return begin + j
+        advance_period(world, inputs, first[j], first[j + 1])
+    return FINISHED
 
 
 def check_command(command: object, world: World, t: float, *, can_drive: bool) -> None:
@@ -202,3 +169,6 @@ def check_command(command: object, world: World, t: float, *, can_drive: bool) -
     if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.size,):
         shape, motors = np.shape(command.voltage), world.decision.motors.size
         raise ControllerError(f"{where} gives voltages of shape {shape}; there are {motors} motors")
+    for name, value in (command.log or {}).items():
+        if not (isinstance(name, str) and name.isidentifier() and isinstance(value, (int, float, np.number))):
+            raise ControllerError(f"{where} logs {name!r}: {value!r}; log numbers by names made of letters and digits")

@@ -16,6 +16,10 @@ SHARED = 20000
 """Steps of the longest stretch worth keeping for the next run: a few megabytes."""
 
 
+STEPS_AT_ONCE = 10000
+"""Plant steps between two looks at the outside world, at progress and at Ctrl-C. No result depends on it."""
+
+
 class Stretch(NamedTuple):
     """Some control periods of a run: their plant steps, and the first step of each period (one more at the end)."""
 
@@ -40,6 +44,11 @@ def make_clock(duration: float, period: float, largest_step: float, jumps: tuple
     """
     substeps = max(1, count_up(period, largest_step))
     return Clock(period, nearest_count(duration, period), substeps, np.array(jumps))
+
+
+def end_of_stretch(clock: Clock, begin: int) -> int:
+    """Update before which a stretch that begins at an update ends."""
+    return min(begin + max(1, STEPS_AT_ONCE // clock.substeps), clock.periods)
 
 
 def stretch(clock: Clock, begin: int, end: int) -> Stretch:

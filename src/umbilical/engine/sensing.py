@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -74,6 +74,14 @@ class Dice:
         self._sensors, self._drawn = sensors, 0
         streams = np.random.SeedSequence(seed).spawn(2)
         self._noise, self._lost = (np.random.Generator(np.random.Philox(stream)) for stream in streams)
+
+    def save(self) -> tuple[Any, ...]:
+        """How far the draws have come."""
+        return self._drawn, self._noise.bit_generator.state, self._lost.bit_generator.state
+
+    def restore(self, mark: tuple[Any, ...]) -> None:
+        """Go on from where :meth:`save` was called."""
+        self._drawn, self._noise.bit_generator.state, self._lost.bit_generator.state = mark
 
     def draw(self, updates: int) -> np.ndarray:
         """Noise of the next updates, shape (updates, channels), NaN where a reading is lost; none if perfect."""

@@ -5,42 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from time import perf_counter
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.admission import admit
-from umbilical.admission.steps import chosen_step
-from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
-from umbilical.compile import announce
-from umbilical.control import cascade
-from umbilical.control.contract import Controller, make_decision, make_readings
+from umbilical.control.contract import Controller
 from umbilical.engine import loop
-from umbilical.engine.recording import WORKS, Log, Tally, channels, inside, make_log, make_tally, root_mean_square
-from umbilical.engine.saturation import saturation, saturation_notices
-from umbilical.engine.schedule import Clock, make_clock, stretch
-from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
-from umbilical.engine.stepping import make_plant, make_plant_state
-from umbilical.errors import ControllerError, Problem, ScenarioError
-from umbilical.plant import faults
-from umbilical.plant.exogenous import Outside, published_jumps
-from umbilical.plant.layout import positions
-from umbilical.relations.instants import apart, count_up, is_multiple, nearest_count
-from umbilical.run import Run, Status, assemble
+from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged, so_far
+from umbilical.engine.episode import Episode
+from umbilical.engine.saturation import saturation_notices
+from umbilical.engine.schedule import end_of_stretch, stretch
+from umbilical.engine.setup import Setup, set_up
+from umbilical.errors import ControllerError
+from umbilical.plant.exogenous import Outside
+from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
-
-STEPS_AT_ONCE = 10000
-"""Plant steps between two looks at the outside world, at progress and at Ctrl-C. No result depends on it."""
-
-
-class Ending(NamedTuple):
-    """How the loop came back: after how many updates, at what time, and why."""
-
-    status: Status
-    reason: str
-    updates: int
-    time: float
-    error: ControllerError | None = None
 
 
 class Outcome(NamedTuple):
@@ -50,16 +30,6 @@ class Outcome(NamedTuple):
     reason: str
     end_time: float
     metrics: dict[str, float]
-
-
-class Setup(NamedTuple):
-    """Everything a run needs, built from its scenario."""
-
-    clock: Clock
-    world: loop.World
-    record: loop.Record
-    dice: Dice
-    decider: loop.BuiltIn | loop.Python
 
 
 def simulate(
@@ -91,19 +61,23 @@ def simulate(
     >>> run.status.name, 0.05 < run.metrics["tip_peak"] < 0.15
     ('COMPLETED', True)
     """
+    if controller is not None:
+        episode = Episode(scenario, controller.period, owner=type(controller).__name__)
+        error = follow(episode, controller, progress)
+        run = episode.finish()
+        if error is not None:
+            error.run = run
+            raise error
+        return run
     begun = perf_counter()
     notices = tuple(str(notice) for notice in admit(scenario))
-    setup = set_up(scenario, controller)
+    setup = set_up(scenario)
     prepared = perf_counter()
     ending, sampling = _run(scenario, setup, progress)
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
     notices += tuple(str(notice) for notice in saturation_notices(scenario, setup.record.tally))
-    run = _assemble(scenario, setup, ending, notices, timing)
-    if ending.error is not None:
-        ending.error.run = run
-        raise ending.error
-    return run
+    return assemble_run(scenario, setup, ending, notices, timing)
 
 
 def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome:
@@ -119,12 +93,16 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
     >>> measure(scenario).metrics["tip_peak"] == simulate(scenario).metrics["tip_peak"]
     True
     """
+    if controller is not None:
+        episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
+        if (error := follow(episode, controller)) is not None:
+            raise error
+        ending = episode.end()
+        return Outcome(ending.status, ending.reason, ending.time, episode.metrics())
     admit(scenario)
-    setup = set_up(scenario, controller, stored=False)
+    setup = set_up(scenario, stored=False)
     ending, _ = _run(scenario, setup, None)
-    if ending.error is not None:
-        raise ending.error
-    metrics = {name: float(value) for name, value in _all_metrics(scenario, setup).items()}
+    metrics = {name: float(value) for name, value in all_metrics(scenario, setup).items()}
     return Outcome(ending.status, ending.reason, ending.time, metrics)
 
 
@@ -134,193 +112,81 @@ def rehearse(scenario: Scenario, controller: Controller) -> None:
     Raises:
         ScenarioError, ControllerError: as :func:`simulate`.
     """
-    setup = set_up(scenario, controller, stored=False)
-    count = min(round(controller.period / scenario.control.period) + 1, setup.clock.periods)
-    part = stretch(setup.clock, 0, count)
-    inputs = Outside(scenario).sample(part.steps)
-    inputs.refresh[0] = True
-    setup.decider.run(inputs, part.first, setup.dice.draw(count), 0)
+    episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
+    if (error := follow(episode, controller, updates=2)) is not None:
+        raise error
 
 
-def set_up(scenario: Scenario, controller: Controller | None = None, *, stored: bool = True) -> Setup:
-    """The plant at rest with its sensors, record and controller, before the first step.
-
-    With ``stored`` false the record holds the first and the last sample only, and no power is booked.
-    """
-    announce()
-    period, every = scenario.control.period, 1
-    if controller is not None:
-        period, every = _periods(scenario, controller)
-    clock = make_clock(scenario.duration, period, chosen_step(scenario), published_jumps(scenario))
-    motors = len(scenario.motors)
-    sensors, readings = make_sensors(scenario), make_readings(motors)
-    world = loop.World(
-        make_plant(scenario, booked=stored),
-        make_plant_state(scenario),
-        sensors,
-        make_sensor_state(sensors, readings),
-        readings,
-        make_decision(motors),
-    )
-    record = _record(scenario, clock, stored)
-    settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
-    if controller is None:
-        decider: loop.BuiltIn | loop.Python = loop.BuiltIn(world, settings, memory, record)
-    else:
-        drive, ideal = cascade.with_known_factors(settings), scenario.sensors.ideal_velocity
-        decider = loop.Python(world, drive, memory, record, controller, period, every, ideal)
-    return Setup(clock, world, record, Dice(sensors, scenario.seed), decider)
-
-
-def _periods(scenario: Scenario, controller: Controller) -> tuple[float, int]:
-    """Period of the loop, and how many of them pass between two calls of a user's controller."""
-    own, loops = float(controller.period), scenario.control.period
-    if not np.isfinite(own) or not is_multiple(own, loops):
-        raise ScenarioError(
-            [
-                Problem(
-                    f"{type(controller).__name__}.period",
-                    f"{apart(own, loops)[0]} s",
-                    f"a multiple of control.period = {loops:g} s",
-                    "the motor loops and the sensors run at control.period",
-                    "set control.period to the controller's period or to a fraction of it",
-                )
-            ]
-        )
-    return loops, nearest_count(own, loops)
+def follow(
+    episode: Episode,
+    controller: Controller,
+    progress: Callable[[float], None] | None = None,
+    updates: float = float("inf"),
+) -> ControllerError | None:
+    """Let a controller step an episode to its end, or for some updates; the error that ended it before, if any."""
+    told = 0.0
+    try:
+        state = _asked(controller, episode, controller.start, episode.measurement)
+        while episode.commanded and updates > 0:
+            answer = _asked(controller, episode, _updated, controller, episode, state)
+            updates, (command, state) = updates - 1, answer
+            if episode.over:
+                episode.end(command)
+            else:
+                episode.step(command)
+            share = episode.time / episode.scenario.duration
+            if progress and (share >= told + 0.01 or episode.over):
+                progress(share)
+                told = share
+    except KeyboardInterrupt:
+        episode.interrupt()
+    except ControllerError as error:
+        episode.stop(Status.FAILED, str(error))
+        return error
+    return None
 
 
-def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
-    every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
-    samples = clock.periods // every + 1 + (clock.periods % every > 0)
-    first = faults.first_fault(scenario.faults)
-    fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
-    elements = scenario.grid.elements
-    return loop.Record(
-        make_log(samples, len(scenario.motors), elements),
-        make_tally(elements, scenario.motors),
-        every,
-        fault_update,
-        clock.periods,
-    )
+def _updated(controller: Controller, episode: Episode, state: Any) -> tuple[Any, Any]:
+    command, state = controller.update(episode.time, episode.measurement, state)
+    return command, state
+
+
+def _asked(controller: Controller, episode: Episode, method: Callable[..., Any], *arguments: Any) -> Any:
+    """What a controller answers; whatever it raises names it and the time."""
+    try:
+        return method(*arguments)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # sys.exit() of a controller ends its run, not the program around it
+        at = f"{type(controller).__name__} failed at t = {episode.time:g} s"
+        raise ControllerError(f"{at}: {type(error).__name__}: {error}") from error
 
 
 def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | None) -> tuple[Ending, float]:
     """The loop, stretch by stretch; also the seconds spent sampling the outside world."""
-    clock, decider = setup.clock, setup.decider
-    length = max(1, STEPS_AT_ONCE // clock.substeps)
+    clock = setup.clock
+    decide = partial(loop.run_steps, setup.world, setup.settings, setup.memory, setup.record)
     outside = Outside(scenario)
     sampling = 0.0
     begin = 0
     try:
         while begin < clock.periods:
-            end = min(begin + length, clock.periods)
+            end = end_of_stretch(clock, begin)
             before = perf_counter()
             part = stretch(clock, begin, end)
             inputs = outside.sample(part.steps)
             inputs.refresh[0] |= begin == 0
             sampling += perf_counter() - before
-            stopped = decider.run(inputs, part.first, setup.dice.draw(end - begin), begin)
+            stopped = decide(inputs, part.first, setup.dice.draw(end - begin), begin)
             if stopped != loop.FINISHED:
-                return _diverged(setup, stopped), sampling
+                return diverged(setup, stopped), sampling
             begin = end
             if progress:
                 progress(end / clock.periods)
         # The update at the end: a period without steps.
-        if decider.run(inputs, np.zeros(2, dtype=np.int64), setup.dice.draw(1), clock.periods) != loop.FINISHED:
-            return _diverged(setup, clock.periods), sampling
+        if decide(inputs, np.zeros(2, dtype=np.int64), setup.dice.draw(1), clock.periods) != loop.FINISHED:
+            return diverged(setup, clock.periods), sampling
     except KeyboardInterrupt:
-        updates, time = _so_far(setup)
+        updates, time = so_far(setup)
         return Ending(Status.INTERRUPTED, f"interrupted at t = {time:g} s", updates, time), sampling
-    except ControllerError as error:
-        return Ending(Status.FAILED, str(error), *_so_far(setup), error), sampling
     return Ending(Status.COMPLETED, "the end of the run was reached", clock.periods + 1, scenario.duration), sampling
-
-
-def _so_far(setup: Setup) -> tuple[int, float]:
-    """Updates taken, and the time of the last one."""
-    updates = int(setup.record.tally.measures[0].samples)
-    return updates, max(updates - 1, 0) * setup.clock.period
-
-
-def _diverged(setup: Setup, update: int) -> Ending:
-    time = update * setup.clock.period
-    steepest = float(setup.record.tally.slopes.max())
-    if steepest > 1.0:
-        why = f"the cable's slope reached {steepest:.3g}: beyond 1 the model of small angles has ended"
-    else:
-        why = "a state or a voltage is no longer finite"
-    return Ending(Status.DIVERGED, f"at t = {time:g} s {why}", update, time)
-
-
-def _assemble(
-    scenario: Scenario, setup: Setup, ending: Ending, notices: tuple[str, ...], timing: dict[str, float]
-) -> Run:
-    every, period = setup.record.every, setup.clock.period
-    samples = (ending.updates - 1) // every + 1
-    times = np.arange(samples) * every * period
-    if ending.status is Status.COMPLETED and setup.record.log.outside.size > samples:
-        samples, times = samples + 1, np.append(times, scenario.duration)
-    named = channels(setup.record.log, samples, bool(scenario.motors))
-    metrics = _all_metrics(scenario, setup)
-    if samples:
-        metrics |= _balance(scenario, setup.record.log, named)
-    return assemble(
-        scenario,
-        named,
-        time=times,
-        status=ending.status,
-        reason=ending.reason,
-        end_time=ending.time,
-        metrics=metrics,
-        timing=timing,
-        notices=notices,
-        sigma=positions(scenario.grid.elements),
-    )
-
-
-def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
-    """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
-    motion = {name: named[name] for name in ("tip_velocity", "length", "payout_acceleration")}
-    works = np.stack([named[name] for name in WORKS], axis=1)
-    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion)
-    named["energy_residual"] = residual(named["energy"], works)
-    lost = float(np.abs(named["work_grid"][-1]))
-    return {
-        "energy_balance_residual": relative_residual(named["energy"], works),
-        "grid_loss": lost / scale_of(named["energy"], works) if lost else 0.0,
-    }
-
-
-def _all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
-    """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
-    metrics = _metrics(setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement))
-    if not scenario.faults:
-        del metrics["tip_peak_after_fault"]
-    if np.isnan(metrics["effort_rms"]):
-        del metrics["effort_rms"]
-    return metrics | saturation(scenario, setup.record.tally)
-
-
-def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
-    """Metrics over every control sample."""
-    found, rms = tally.measures[0], partial(root_mean_square, tally)
-    return {
-        "tip_peak": found.tip.peak,
-        "tip_rms": rms(found.tip),
-        "tip_end": tip_end,
-        "tip_peak_after_fault": found.tip_after_fault.peak,
-        "mid_peak": found.mid.peak,
-        "mid_rms": rms(found.mid),
-        "quarter_peak": found.quarter.peak,
-        "quarter_rms": rms(found.quarter),
-        "three_quarter_peak": found.three_quarter.peak,
-        "three_quarter_rms": rms(found.three_quarter),
-        "slope_peak": float(tally.slopes.max()),
-        "effort_rms": rms(found.command),
-        "thrust_peak": found.thrust.peak,
-        "motor_speed_peak": found.speed.peak,
-        "motor_voltage_peak": found.voltage.peak,
-        "motor_voltage_rms": rms(found.voltage) / np.sqrt(max(tally.motors.size, 1)),
-        "motor_current_peak": found.current.peak,
-    }

@@ -1,0 +1,136 @@
+"""How a run ended, and what is kept of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
+from umbilical.engine.recording import WORKS, Log, Tally, channels, inside, root_mean_square
+from umbilical.engine.saturation import saturation
+from umbilical.engine.setup import Setup
+from umbilical.plant.layout import positions
+from umbilical.run import Run, Status, assemble
+from umbilical.scenario.scenario import Scenario
+
+
+class Ending(NamedTuple):
+    """How the loop came back: after how many updates, at what time, and why."""
+
+    status: Status
+    reason: str
+    updates: int
+    time: float
+
+
+def so_far(setup: Setup) -> tuple[int, float]:
+    """Updates taken, and the time of the last one."""
+    updates = int(setup.record.tally.measures[0].samples)
+    return updates, max(updates - 1, 0) * setup.clock.period
+
+
+def diverged(setup: Setup, update: int) -> Ending:
+    time = update * setup.clock.period
+    steepest = float(setup.record.tally.slopes.max())
+    if steepest > 1.0:
+        why = f"the cable's slope reached {steepest:.3g}: beyond 1 the model of small angles has ended"
+    else:
+        why = "a state or a voltage is no longer finite"
+    return Ending(Status.DIVERGED, f"at t = {time:g} s {why}", update, time)
+
+
+def assemble_run(
+    scenario: Scenario,
+    setup: Setup,
+    ending: Ending,
+    notices: tuple[str, ...],
+    timing: dict[str, float],
+    logged: Sequence[tuple[int, Mapping[str, float]]] = (),
+) -> Run:
+    """The run from what is recorded; ``logged``: values of a user's controller, by the update it logged them at."""
+    every, period = setup.record.every, setup.clock.period
+    samples = (ending.updates - 1) // every + 1
+    times = np.arange(samples) * every * period
+    if ending.status is Status.COMPLETED and setup.record.log.outside.size > samples:
+        samples, times = samples + 1, np.append(times, scenario.duration)
+    named = channels(setup.record.log, samples, bool(scenario.motors))
+    metrics = all_metrics(scenario, setup)
+    if samples:
+        metrics |= _balance(scenario, setup.record.log, named)
+    return assemble(
+        scenario,
+        named,
+        time=times,
+        status=ending.status,
+        reason=ending.reason,
+        end_time=ending.time,
+        metrics=metrics,
+        timing=timing,
+        notices=notices,
+        sigma=positions(scenario.grid.elements),
+        logged=held_values(logged, np.minimum(np.arange(samples) * every, setup.clock.periods)),
+    )
+
+
+def held_values(logged: Sequence[tuple[int, Mapping[str, float]]], updates: np.ndarray) -> dict[str, np.ndarray]:
+    """What a controller logged, held until it logs again, at some updates; NaN before the first value.
+
+    >>> held_values([(0, {"error": 1.0}), (2, {"error": 3.0})], np.arange(4))
+    {'error': array([1., 1., 3., 3.])}
+    """
+    found: dict[str, np.ndarray] = {}
+    for update, values in logged:
+        for name, value in values.items():
+            column = found.setdefault(name, np.full(updates.size, np.nan))
+            column[np.searchsorted(updates, update) :] = value
+    return found
+
+
+def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
+    """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
+    motion = {name: named[name] for name in ("tip_velocity", "length", "payout_acceleration")}
+    works = np.stack([named[name] for name in WORKS], axis=1)
+    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion)
+    named["energy_residual"] = residual(named["energy"], works)
+    lost = float(np.abs(named["work_grid"][-1]))
+    return {
+        "energy_balance_residual": relative_residual(named["energy"], works),
+        "grid_loss": lost / scale_of(named["energy"], works) if lost else 0.0,
+    }
+
+
+def all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
+    """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
+    metrics = _metrics(setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement))
+    if not scenario.faults:
+        del metrics["tip_peak_after_fault"]
+    if np.isnan(metrics["effort_rms"]):
+        del metrics["effort_rms"]
+    return metrics | saturation(scenario, setup.record.tally)
+
+
+def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
+    """Metrics over every control sample."""
+    found, rms = tally.measures[0], partial(root_mean_square, tally)
+    return {
+        "tip_peak": found.tip.peak,
+        "tip_rms": rms(found.tip),
+        "tip_end": tip_end,
+        "tip_peak_after_fault": found.tip_after_fault.peak,
+        "mid_peak": found.mid.peak,
+        "mid_rms": rms(found.mid),
+        "quarter_peak": found.quarter.peak,
+        "quarter_rms": rms(found.quarter),
+        "three_quarter_peak": found.three_quarter.peak,
+        "three_quarter_rms": rms(found.three_quarter),
+        "slope_peak": float(tally.slopes.max()),
+        "effort_rms": rms(found.command),
+        "thrust_peak": found.thrust.peak,
+        "motor_speed_peak": found.speed.peak,
+        "motor_voltage_peak": found.voltage.peak,
+        "motor_voltage_rms": rms(found.voltage) / np.sqrt(max(tally.motors.size, 1)),
+        "motor_current_peak": found.current.peak,
+    }

@@ -1,0 +1,67 @@
+"""Everything a run needs before its first step."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from umbilical.admission.steps import chosen_step
+from umbilical.compile import announce
+from umbilical.control import cascade
+from umbilical.control.contract import make_decision, make_readings
+from umbilical.engine import loop
+from umbilical.engine.recording import make_log, make_tally
+from umbilical.engine.schedule import Clock, make_clock
+from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
+from umbilical.engine.stepping import make_plant, make_plant_state
+from umbilical.plant import faults
+from umbilical.plant.exogenous import published_jumps
+from umbilical.relations.instants import count_up
+from umbilical.scenario.scenario import Scenario
+
+
+class Setup(NamedTuple):
+    """Everything a run needs, built from its scenario; ``settings`` and ``memory`` are of the built-in controller."""
+
+    clock: Clock
+    world: loop.World
+    record: loop.Record
+    dice: Dice
+    settings: cascade.CascadeSettings
+    memory: cascade.CascadeState
+
+
+def set_up(scenario: Scenario, *, stored: bool = True) -> Setup:
+    """The plant at rest with its sensors, record and controller, before the first step.
+
+    With ``stored`` false the record holds the first and the last sample only, and no power is booked.
+    """
+    announce()
+    jumps = published_jumps(scenario)
+    clock = make_clock(scenario.duration, scenario.control.period, chosen_step(scenario), jumps)
+    motors = len(scenario.motors)
+    sensors, readings = make_sensors(scenario), make_readings(motors)
+    world = loop.World(
+        make_plant(scenario, booked=stored),
+        make_plant_state(scenario),
+        sensors,
+        make_sensor_state(sensors, readings),
+        readings,
+        make_decision(motors),
+    )
+    settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
+    return Setup(clock, world, _record(scenario, clock, stored), Dice(sensors, scenario.seed), settings, memory)
+
+
+def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
+    every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
+    samples = clock.periods // every + 1 + (clock.periods % every > 0)
+    first = faults.first_fault(scenario.faults)
+    fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
+    elements = scenario.grid.elements
+    return loop.Record(
+        make_log(samples, len(scenario.motors), elements),
+        make_tally(elements, scenario.motors),
+        every,
+        fault_update,
+        clock.periods,
+    )
