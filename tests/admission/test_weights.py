@@ -24,6 +24,7 @@ HARD = {"law": "cosine", "start_length": 450.0, "amplitude": 40.0, "frequency": 
         ({"control.nominal.payload_wet_weight": 6e3}, "control.nominal.payload_wet_weight", "5000 N"),
         ({"payload.wet_weight": 1700.0, "winch": HARD}, "winch.frequency", "below 3.4 m/s2"),
         ({"cable.wet_line_density": 0.0, "winch": HARD}, "winch.frequency", "below 3.57"),
+        ({"cable.wet_line_density": 0.0, "winch": HARD, "control.law": {"kind": "none"}}, "winch.frequency", "3.57"),
         ({"payload.wet_weight": 1000.0, "winch": {"law": "speed", "start_length": 450.0, "speed": 23.0}}, "winch.speed",
          "slower than the waves, 22.3607 m/s where the tension is smallest"),
     ],

@@ -110,7 +110,7 @@ TERMS: dict[str, tuple[Break, set[str]]] = {
     "the vessel's motion": (another_scenario(broken.twice_the_vessels_motion), {"vessel still"}),
     "the cable's damping": (another_scenario(broken.twice("cable.damping")), {"cable undamped"}),
     "the ROV's damping": (another_scenario(broken.twice("payload.damping")), {"ROV undamped"}),
-    "the cable's weight": (another_scenario(broken.half("cable.wet_line_density")), {"cable without weight"}),
+    "the cable's weight": (another_scenario(broken.a_fifth_less_weight_of_the_cable), {"cable without weight"}),
 }
 """What is wrong, and the rows of the manufactured solution, term by term, that do not notice."""
 

@@ -54,14 +54,14 @@ def nothing(patch: pytest.MonkeyPatch) -> None:
     """The model as it is."""
 
 
-def twice(key: str, factor: float = 2.0) -> Callable[[Scenario], Mapping[str, Any]]:
+def twice(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
     """A number of the scenario."""
-    return lambda scenario: {key: factor * look_up(scenario.to_dict(), key)}
+    return lambda scenario: {key: 2.0 * look_up(scenario.to_dict(), key)}
 
 
-def half(key: str) -> Callable[[Scenario], Mapping[str, Any]]:
-    """A number of the scenario."""
-    return twice(key, 0.5)
+def a_fifth_less_weight_of_the_cable(scenario: Scenario) -> Mapping[str, Any]:
+    wet = scenario.cable.wet_line_density
+    return {"cable.wet_line_density": 0.8 * (scenario.cable.line_density if wet is None else wet)}
 
 
 def a_trace_of_damping(scenario: Scenario) -> Mapping[str, Any]:

@@ -81,6 +81,8 @@ def steady_slope(
     length = motion.length[:, None]
     net = motion.net_gravity(environment.gravity)[:, None]
     pull = tension(length * (1.0 - sigma), net, hanging_of(cable, payload, environment))
+    if not pull.min() > 0.0:
+        return Steady(0.0, 0.0, True)  # a slack cable has its own problem
     below = length * _from_below(_loads(environment, t, sigma), sigma)
     carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
     slopes = (_left_at_the_payload(environment, control, t, pull[:, -1], carried, alone)[:, None] + below) / pull
