@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from umbilical.plant.exogenous import MotorExogenous
 from umbilical.plant.motors import applied_voltage, make_motors
 from umbilical.scenario.hardware import Motor
 from umbilical.verify import motor
@@ -22,4 +23,5 @@ pytestmark = pytest.mark.nojit
 )
 def test_the_limit_comes_before_the_faults(wanted: float, effectiveness: float, stuck: float, reached: float) -> None:
     motors = make_motors([Motor.model_validate(motor.MOTOR | {"voltage_limit": 10.0})])
-    assert applied_voltage(motors, 0, wanted, effectiveness, stuck) == reached
+    outside = MotorExogenous.one(drive_effectiveness=effectiveness, stuck_voltage=stuck)
+    assert applied_voltage(motors[0], wanted, outside) == reached

@@ -71,7 +71,7 @@ def apart(*values: float) -> tuple[str, ...]:
     different = len(set(values))
     texts: tuple[str, ...] = ()
     for digits in _DIGITS:
-        texts = tuple(f"{value:.{digits}g}" for value in values)
+        texts = tuple(f"{value + 0.0:.{digits}g}" for value in values)  # no -0, which equals 0
         if len(set(texts)) == different:
             break
     return texts
