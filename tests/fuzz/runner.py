@@ -12,12 +12,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
 from typing import Any, NamedTuple
+from unittest.mock import patch
+
+import typer
 
 from tests.fuzz.inputs import Case
 from umbilical.cli import main
+from umbilical.cli.app import app
 from umbilical.cli.speech import EXIT_CODES
 from umbilical.engine import simulate
 
+_COMMAND = typer.main.get_command(app)
+"""Built once: typer takes longer for that than most inputs take."""
 SECONDS = 120
 """After which an input is said to hang; on a processor with nothing else to do the slowest takes a few."""
 GIGABYTES = 6
@@ -40,13 +46,17 @@ class Hangs(BaseException):
 def answer(case: Case) -> Answer:
     """What the command line makes of a case, in a folder of its own."""
     with tempfile.TemporaryDirectory() as folder, _counted() as begun, _bounded():
-        for name, content in case.files.items():
+        for name, content in case.files:
             (Path(folder) / name).write_bytes(content)
         arguments = [_filled(word, folder) for word in case.arguments]
         out, err, here = io.StringIO(), io.StringIO(), Path.cwd()
         os.chdir(folder)
         try:
-            with redirect_stdout(out), redirect_stderr(err):
+            with (
+                redirect_stdout(out),
+                redirect_stderr(err),
+                patch.object(typer.main, "get_command", lambda _: _COMMAND),
+            ):
                 code = main(arguments)
         finally:
             os.chdir(here)
@@ -136,3 +146,7 @@ def _bounded() -> Iterator[None]:
 def _address_space() -> int:
     status = Path("/proc/self/statm")
     return int(status.read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE") if status.exists() else 10**12
+
+
+def _command_built() -> Any:
+    return patch.object(typer.main, "get_command", lambda _: _COMMAND)
