@@ -46,6 +46,7 @@ def from_netcdf(content: bytes, origin: str) -> xarray.Dataset:
     if not content.startswith(_SIGNATURE):
         raise FileError(f"{origin}: this is not a NetCDF4 file" + (" (it is empty)" if not content else ""))
     try:  # numbers as they are stored: no unit makes a date of them
+        _check_root(content)
         with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf", decode_times=False) as data:
             _check_schema(data, origin)
             _check_size(data, origin)
@@ -54,6 +55,14 @@ def from_netcdf(content: bytes, origin: str) -> xarray.Dataset:
         raise
     except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
         raise FileError(f"{origin}: the file is damaged or cut short ({_first_line(error)})") from error
+
+
+def _check_root(content: bytes) -> None:
+    """Raise where attributes of the root cannot be read: h5netcdf would leave half a file, and that complains."""
+    import h5py
+
+    with h5py.File(io.BytesIO(content), "r") as file:
+        dict(file.attrs)
 
 
 def _check_size(data: xarray.Dataset, origin: str) -> None:

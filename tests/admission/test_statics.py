@@ -95,3 +95,9 @@ def test_only_what_lasts_counts(lasting: bool) -> None:
 def test_a_run_too_short_to_get_there_is_told_only() -> None:
     short = DEEP | {"duration": 10.0, "environment.cable_load": along(constant(46.0))}
     assert any("static slope" in str(notice) for notice in admit(umbilical.load("paper", short)))
+
+
+def test_a_slack_cable_has_no_static_shape_and_is_refused_by_what_it_is() -> None:
+    """Found by fuzzing: the square root of a negative tension was no number."""
+    with pytest.raises(ScenarioError, match="must stay above 0"):
+        admit(umbilical.load("paper", {"environment.gravity": 1e-9, "duration": 0.02}))

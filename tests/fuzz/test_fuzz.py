@@ -82,7 +82,7 @@ def altered(draw: Callable[..., Any], data: xarray.Dataset) -> bytes:
 
 
 UNWATCHED = (HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much)
-SHARES = {"scenario": 0.5, "set": 0.2, "study": 0.15, "result": 0.1, "words": 0.05}
+SHARES = {"scenario": 0.55, "set": 0.15, "study": 0.15, "result": 0.1, "words": 0.05}
 
 
 @pytest.fixture(scope="module")

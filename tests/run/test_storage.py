@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import platform
 import re
 import time
+from contextlib import suppress
 from datetime import datetime
 
 import numpy as np
@@ -13,6 +15,7 @@ import pytest
 import xarray
 
 from umbilical.errors import FileError, OutputError
+from umbilical.formats import from_netcdf
 from umbilical.run import Status, open_run, scenario_text
 
 
@@ -105,6 +108,18 @@ def _netcdf(data: xarray.Dataset) -> bytes:
 
 def _altered(run, **attributes) -> bytes:
     return _netcdf(run.data.assign_attrs(attributes))
+
+
+def test_damaged_attributes_leave_no_half_open_file_behind(stored):
+    """What h5netcdf could not open complains on stderr when it is forgotten; pytest makes an error of that."""
+    content, generator = stored.read_bytes(), np.random.default_rng(1)
+    for _ in range(100):
+        spoilt = bytearray(content)
+        for place in generator.integers(0, len(content), 4):
+            spoilt[place] = generator.integers(0, 256)
+        with suppress(FileError):
+            from_netcdf(bytes(spoilt), "spoilt.nc")
+    gc.collect()
 
 
 @pytest.mark.parametrize(
