@@ -48,19 +48,19 @@ def cache_folder() -> Path:
     return folder_for(_fingerprint())
 
 
-def is_warm() -> bool:
-    """Whether the main loop has been compiled before and will load from disk."""
-    return any(is_whole(path) for path in cache_folder().rglob("*run_steps*.nbc"))
+def is_warm(loop: str = "run_steps") -> bool:
+    """Whether a loop has been compiled before and will load from disk: ``run_held`` is that of an episode."""
+    return any(is_whole(path) for path in cache_folder().rglob(f"*{loop}*.nbc"))
 
 
 @cache
-def announce() -> None:
-    """Say once, before a kernel is first called, that kernels are about to be compiled.
+def announce(loop: str = "run_steps") -> None:
+    """Say once, before a kernel of a loop is first called, that kernels are about to be compiled.
 
     The message is a warning of the logger ``umbilical``, which Python writes to stderr;
     ``logging.getLogger("umbilical").setLevel("ERROR")`` switches it off.
     """
-    if not config.DISABLE_JIT and not is_warm() and parent_process() is None:
+    if not config.DISABLE_JIT and not is_warm(loop) and parent_process() is None:
         logging.getLogger("umbilical").warning(
             "compiling the kernels once, which takes half a minute to three minutes; later runs load them from disk"
         )

@@ -40,7 +40,7 @@ def test_the_first_compilation_announces_itself_once_and_can_be_silenced(caplog,
 
     monkeypatch.setattr(kernels.config, "DISABLE_JIT", 0)
     for warm, count in [(True, 0), (False, 1)]:
-        monkeypatch.setattr(kernels, "is_warm", lambda warm=warm: warm)
+        monkeypatch.setattr(kernels, "is_warm", lambda *_, warm=warm: warm)
         kernels.announce.cache_clear()
         for _ in range(2):
             progress.announce_compilation()

@@ -76,7 +76,7 @@ class Episode:
         begun = perf_counter()
         self.scenario, self._notices = scenario, tuple(str(notice) for notice in admit(scenario))
         self._held = 1 if period is None else _periods(scenario, float(period), owner)
-        self._setup, self._outside = set_up(scenario, stored=stored), Outside(scenario)
+        self._setup, self._outside = set_up(scenario, stored=stored, kernel="run_held"), Outside(scenario)
         self._settings = cascade.with_known_factors(self._setup.settings)
         self._update, self._driven, self._sampling = 0, False, 0.0
         self._ending: Ending | None = None
@@ -182,7 +182,7 @@ class Episode:
         begin, noise = mark.block
         self._block = self._next_block(begin)._replace(noise=noise)
         self._setup.dice.restore(mark.dice)
-        self.measurement = to_measurement(self._setup.world.readings, self.scenario.sensors.ideal_velocity)
+        self._read()
 
     def _changing(self, rows: int) -> Iterator[np.ndarray]:
         """All arrays that change; of the log the rows so far."""
@@ -213,7 +213,11 @@ class Episode:
         """Measure at the present update."""
         world, block = self._setup.world, self._block
         loop.observe(world, block.inputs, block.first, block.noise, self._update - block.begin)
-        self.measurement = to_measurement(world.readings, self.scenario.sensors.ideal_velocity)
+        self._read()
+
+    def _read(self) -> None:
+        """What the sensors read now."""
+        self.measurement = to_measurement(self._setup.world.readings, self.scenario.sensors.ideal_velocity)
 
     def _take(self, command: Command) -> None:
         """Put a command where the kernels find it."""
@@ -240,10 +244,10 @@ class Episode:
                 self._update = stopped
                 return
             self._update, decided = last, False
-            if last <= setup.clock.periods:
-                if last == block.end:
-                    self._block = self._next_block(last)
+            if last == block.end and last <= setup.clock.periods:
+                self._block = self._next_block(last)
                 self._observe()
+        self._read()
 
 
 def _arrays(tree: Any) -> Iterator[np.ndarray]:

@@ -131,7 +131,9 @@ def run_held(
     driven: bool,
     decided: bool,
 ) -> int:
-    """Hold a command over some periods of the stretch that begins at ``begin``; the first is observed already.
+    """Hold a command over some periods of the stretch that begins at ``begin``.
+
+    The first is observed already, and so is in the end what follows the last, if it is in the stretch.
 
     ``driven``: the command is a thrust, which allocation (if it has just been ``decided``) and motor loops turn into
     voltages. Returns as :func:`run_steps`.
@@ -149,6 +151,8 @@ def run_held(
         if not good:
             return begin + j
         advance_period(world, inputs, first[j], first[j + 1])
+    if periods[1] < first.size - 1:  # here, because a call from Python costs more than a period
+        observe(world, inputs, first, noise, periods[1])
     return FINISHED
 
 

@@ -30,12 +30,13 @@ class Setup(NamedTuple):
     memory: cascade.CascadeState
 
 
-def set_up(scenario: Scenario, *, stored: bool = True) -> Setup:
+def set_up(scenario: Scenario, *, stored: bool = True, kernel: str = "run_steps") -> Setup:
     """The plant at rest with its sensors, record and controller, before the first step.
 
     With ``stored`` false the record holds the first and the last sample only, and no power is booked.
+    ``kernel`` is the loop that will run, should it have to be compiled.
     """
-    announce()
+    announce(kernel)
     jumps = published_jumps(scenario)
     clock = make_clock(scenario.duration, scenario.control.period, chosen_step(scenario), jumps)
     motors = len(scenario.motors)
