@@ -109,7 +109,7 @@ def test_margins_of_a_side_are_those_of_its_report_not_of_the_coarse_search():
     task = Task(RINGDOWN.replace({"duration": 0.5}), [], "both", Demands(), 400.0, 50.0)
     found = side(task, knife_edge)
     assert not found.meets
-    assert any("margins are missed" in words for words in _missing(found, Limits(), ()))
+    assert any("margins are missed" in words for words in _missing(Outcome({}, found, found, ()), Limits()))
 
 
 def test_inner_knobs_leave_room_for_the_robust_terms():
@@ -180,7 +180,7 @@ def test_margins_on_the_command_line(umbilical_command):
     assert (found["verdict"], found["exit_code"], done.code) == ("HOLDS", 0, 0)
     assert umbilical_command("margins", "ringdown", "--lengths", "long").code == 2
     assert umbilical_command("margins", "ringdown", "--grid", "").code == 2
-    assert umbilical_command("design", "ringdown", "--limits", "noise=3").code == 2
+    assert umbilical_command("design", "ringdown", "--limits", "loudness=3").code == 2
 
 
 @pytest.fixture
@@ -240,14 +240,27 @@ def test_rejection_in_the_papers_run_keeps_its_margins():
     assert found.after.trial.tip_peak < 0.5 * found.before.trial.tip_peak
 
 
-def test_a_limit_that_is_broken_is_said_and_blamed_only_where_it_was_searched_under():
+def test_a_limit_that_is_broken_is_said_with_what_was_searched_and_nothing_else_is_blamed():
     trial = attempt(RINGDOWN.replace({"duration": 1.0, "grid.elements": 8}))
     before = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
-    once, again = (list(_missing(before, Limits(voltage=0.1), limited)) for limited in ((), ("voltage",)))
-    assert not any("the thrusters are the limit" in words for words in once)
-    assert any("voltage the thrusters are the limit" in words for words in again)
+    once, again = (
+        list(_missing(Outcome({}, before, before, limited), Limits(voltage=0.1))) for limited in ((), ("voltage",))
+    )
+    assert not any("thruster" in words or "searches" in words for words in once)
+    assert any("voltage" in words and "searches under lower ceilings found no gains" in words for words in again)
+    assert not any("thruster" in words for words in again)
     assert any("more thrust" in words for words in once)
-    assert len(list(_missing(before, Limits(chatter=1e3), ()))) == 1
+    assert len(list(_missing(Outcome({}, before, before, ()), Limits(chatter=1e3)))) == 1
+
+
+def test_a_limit_is_named_only_where_the_search_without_it_was_better():
+    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    free, bound = (Side(RINGDOWN, Demands(), score(x), margins(RINGDOWN), trial) for x in (SLOW_SLOPE, {}))
+    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    for found, named in ((bound, True), (free, False)):
+        outcome = Outcome({}, found, free, ("voltage",))
+        words = list(_limited_by(task, outcome, Limits(), motor_gains_kept=False))
+        assert any("limit on voltage" in line for line in words) is named
 
 
 def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
@@ -273,6 +286,7 @@ def test_what_inner_could_do_is_said_where_motor_gains_were_kept():
     trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
     now = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
     task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
-    kept, chosen = (list(_limited_by(task, Outcome({}, now, now, ()), motor_gains_kept=kept)) for kept in (True, False))
+    outcome = Outcome({}, now, now, ())
+    kept, chosen = (list(_limited_by(task, outcome, Limits(), motor_gains_kept=kept)) for kept in (True, False))
     assert any("--inner" in words for words in kept)
     assert not any("--inner" in words for words in chosen)

@@ -16,6 +16,8 @@ from umbilical.relations.tension import net_gravity, tension
 
 READINGS = 4
 """y(l), y_x(l) and, where they are granted, Dy/Dt and D(y_x)/Dt."""
+_DEVIATIONS = np.linspace(-6.0, 6.0, 801)
+_LIKELIHOOD = np.exp(-0.5 * _DEVIATIONS**2) / np.exp(-0.5 * _DEVIATIONS**2).sum()
 
 
 def outer_law(outer: Outer) -> Discrete:
@@ -49,17 +51,17 @@ def outer_law(outer: Outer) -> Discrete:
     return _from_rows(np.vstack([pi, chi, phi, thrust]), thrust)
 
 
-def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: float) -> Discrete:
+def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: float, spread: float = 0.0) -> Discrete:
     """From (demand U_i, w, i) to the voltage of one motor, eqs. (52)-(64), near a steady speed and demand.
 
-    States are w_d, w_d', w_d'', ups and the V that was held last.
+    States are w_d, w_d', w_d'', ups and the V that was held last. ``spread`` as for :func:`root_slope`.
     """
     c, gains = constants, motors.backstepping
     unit = np.eye(8)
     reference, ups, last = unit[:3], unit[3], unit[4]
     wanted, w, current = unit[5:]
     scaled = c.current_scale * current
-    root = root_slope(demand, motors.command_filter.width) * wanted
+    root = root_slope(demand, motors.command_filter.width, spread) * wanted
     reference = _advanced(motors.command_filter.form, reference, root)
     decay = motors.observer_decay
     known = (motors.observer_gain + c.f22) * scaled + c.f21 * w + last
@@ -77,8 +79,23 @@ def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: f
     return _from_rows(np.vstack([reference, ups, drive]), drive / c.f23)
 
 
-def root_slope(demand: float, width: float) -> float:
-    """Slope of the softened root U/(U^2 + s^2)^(1/4) at a demand, s/rad."""
+def root_slope(demand: float, width: float, spread: float = 0.0) -> float:
+    """Slope of the softened root U/(U^2 + s^2)^(1/4) at a demand, s/rad.
+
+    Args:
+        demand: mean of the demand, rad2/s2.
+        width: s, rad2/s2.
+        spread: standard deviation of a normally distributed demand, rad2/s2; the slope is then the mean slope, the
+            gain of the equivalent linear element (Roberts, Spanos: Random Vibration and Statistical Linearization).
+
+    >>> round(root_slope(0.0, 1e-3), 2), round(root_slope(0.0, 1e-3, spread=4.0), 3)
+    (31.62, 0.43)
+    """
+    if spread > 1e-3 * np.hypot(demand, width):
+        # The mean slope is E[root(U) x]/spread (Stein's lemma), which needs no point close to the steep part.
+        demands = demand + spread * _DEVIATIONS
+        roots = demands / np.sqrt(np.hypot(demands, width))
+        return float((roots * _DEVIATIONS * _LIKELIHOOD).sum() / spread)
     square = demand * demand + width * width
     return (0.5 * demand * demand + width * width) / square**1.25
 

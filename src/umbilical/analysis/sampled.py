@@ -43,23 +43,25 @@ class Drive:
         rates: ``x' = rates x + volts U`` of x = (w, i), shape (2, 2).
         volts: shape (2, 1).
         weight: demand per commanded thrust times thrust per speed, 2 K_T |w0|, rad/s.
+        share: size of the demand on one motor per commanded thrust, rad2/(N s2).
     """
 
     law: Discrete
     rates: np.ndarray
     volts: np.ndarray
     weight: float
+    share: float
 
     def closed(self, period: float) -> Discrete:
-        """From a demand to (voltage, w) with the motor's loop closed; states are the law's, then w and i."""
+        """From (demand, errors of w and of i) to (voltage, w), the loop closed; states are the law's, then w and i."""
         a, b = held(self.rates, self.volts, period)
         k, seen, n = self.law, slice(1, 3), self.law.a.shape[0]
         upper = np.hstack([k.a, k.b[:, seen]])
         lower = np.hstack([b @ k.c, a + b @ k.d[:, seen]])
-        entry = np.vstack([k.b[:, :1], b @ k.d[:, :1]])
+        entry = np.vstack([k.b, b @ k.d])
         voltage = np.hstack([k.c, k.d[:, seen]])
         speed = np.eye(n + 2)[[n]]
-        return Discrete(np.vstack([upper, lower]), entry, np.vstack([voltage, speed]), np.array([k.d[0, :1], [0.0]]))
+        return Discrete(np.vstack([upper, lower]), entry, np.vstack([voltage, speed]), np.vstack([k.d, np.zeros(3)]))
 
     def behaves_like(self, other: Drive) -> bool:
         """Whether a demand turns both alike."""
@@ -117,15 +119,25 @@ def sampled_loop(scenario: Scenario, operating_thrust: float) -> SampledLoop:
         every=settings.outer_every,
         law=outer_law(settings.outer),
         ages=tuple(round(c.latency / period) * period for c in channels),
-        drives=_drives(scenario, settings, operating_thrust) if settings.motors.driven else (),
+        drives=_drives(scenario, settings, operating_thrust, 0.0),
         operating_thrust=operating_thrust,
     )
 
 
-def _drives(scenario: Scenario, settings: CascadeSettings, thrust: float) -> tuple[Drive, ...]:
+def drives_at(scenario: Scenario, thrust: float, spread: float = 0.0) -> tuple[Drive, ...]:
+    """The motors at a steady thrust, N, about which the commanded thrust varies with a standard deviation, N.
+
+    The varying demand is seen through the mean slope of its root; none where the thruster is ideal.
+    """
+    return _drives(scenario, make_settings(scenario), thrust, spread)
+
+
+def _drives(scenario: Scenario, settings: CascadeSettings, thrust: float, spread: float) -> tuple[Drive, ...]:
     drives: list[Drive] = []
+    if not settings.motors.driven:
+        return ()
     for number, share in enumerate(shares(settings.motors, make_state(scenario).kappa)):
-        new = _drive(scenario, settings, number, float(share), thrust)
+        new = _drive(scenario, settings, number, float(share), thrust, spread)
         alike = [k for k, old in enumerate(drives) if old.behaves_like(new)]
         if alike:
             drives[alike[0]] = replace(new, weight=drives[alike[0]].weight + new.weight)
@@ -134,16 +146,19 @@ def _drives(scenario: Scenario, settings: CascadeSettings, thrust: float) -> tup
     return tuple(drives)
 
 
-def _drive(scenario: Scenario, settings: CascadeSettings, number: int, share: float, thrust: float) -> Drive:
+def _drive(
+    scenario: Scenario, settings: CascadeSettings, number: int, share: float, thrust: float, spread: float
+) -> Drive:
     motors, motor = settings.motors, scenario.motors[number]
     period, sensors = scenario.control.period, scenario.sensors
     ages = (0, round(sensors.motor_speed.latency / period), round(sensors.motor_current.latency / period))
     demand = share * thrust + np.sign(share) * make_state(scenario).kappa[1:].sum()
-    speed = float(soft_signed_root(demand, motors.command_filter.width))
+    varying = abs(share) * spread
+    speed = float(soft_signed_root(np.hypot(demand, varying), motors.command_filter.width))
     constants = motors.nominal[number]
-    law = delayed(motor_law(motors, constants, abs(speed), abs(demand)), ages)
-    rates, volts = motor_rates(motor, abs(speed))
-    return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * abs(speed))
+    law = delayed(motor_law(motors, constants, speed, abs(demand), varying), ages)
+    rates, volts = motor_rates(motor, speed)
+    return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * speed, abs(share))
 
 
 def motor_rates(motor: Motor, speed: float) -> tuple[np.ndarray, np.ndarray]:

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from typer import Argument, BadParameter, Option
 
+from umbilical.cli.conclusion import Conclusion, conclude
 from umbilical.cli.judging import document as margins_document
 from umbilical.cli.judging import rows as margin_rows
 from umbilical.cli.options import Changes, Force, Json, Plot, Thrust
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.running import load_changed
-from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.speech import table
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -35,7 +36,8 @@ def design(
     phase: Annotated[float, Option("--phase-margin", metavar="DEG", help="Both ways, degrees.")] = 30.0,
     delay: Annotated[float, Option("--delay-margin", metavar="N", help="In control periods.")] = 2.0,
     limits: Annotated[
-        str | None, Option("--limits", metavar="NAME=VALUE,...", help="voltage (V), speed (rad/s), chatter (V).")
+        str | None,
+        Option("--limits", metavar="NAME=VALUE,...", help="voltage (V), speed (rad/s), chatter (V), noise (V)."),
     ] = None,
     operating_thrust: Thrust = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Store the new scenario.")] = None,
@@ -71,11 +73,16 @@ def design(
             operating_thrust=operating_thrust, progress=advance,
         )  # fmt: skip
     files = _write(found, out, plot, force)
-    if as_json:
-        say_json(document(found) | {"files": files})
-    else:
-        say("\n".join([text(found), *(f"  {role}: {path}" for role, path in files.items())]))
-    return 0 if found.met else 7
+    return conclude(
+        conclusion(found), text=lambda: text(found), document=lambda: document(found), files=files, as_json=as_json
+    )
+
+
+def conclusion(found: Design) -> Conclusion:
+    """Whether the gains keep every margin and limit."""
+    state = "all margins and limits are kept" if found.met else "NOT everything is kept"
+    headline = f"{found.after.scenario.name}: designed for {found.objective}; {state}"
+    return Conclusion("HOLDS" if found.met else "DOES_NOT_HOLD", headline)
 
 
 def _periods(words: str | None) -> list[float]:
@@ -108,9 +115,9 @@ def _limits(words: str | None) -> Limits:
             given[name] = float(value)
         except ValueError:
             given[name] = -1.0
-        if name not in ("voltage", "speed", "chatter") or not given[name] > 0.0:
+        if name not in ("voltage", "speed", "chatter", "noise") or not given[name] > 0.0:
             raise BadParameter(
-                f"'{word}' is not voltage=, speed= or chatter= and a number above 0", param_hint="--limits"
+                f"'{word}' is not voltage=, speed=, chatter= or noise= and a number above 0", param_hint="--limits"
             )
     return Limits(**given)
 
@@ -156,16 +163,14 @@ def _side(side: Side) -> dict[str, Any]:
         "voltage_peak": trial.voltage_peak,
         "speed_peak": trial.speed_peak,
         "chatter": trial.chatter,
+        "noise": side.noise._asdict(),
         "margins": margins_document(side.report),
     }
 
 
 def text(found: Design) -> str:
-    """A design as people read it."""
-    name = found.after.scenario.name
-    state = "all margins and limits are kept" if found.met else "NOT everything is kept"
-    lines = [f"{name}: designed for {found.objective}; {state}"]
-    lines += [f"  missing: {words}" for words in found.missing]
+    """What the verdict rests on, as people read it."""
+    lines = [f"  missing: {words}" for words in found.missing]
     lines += [f"  limit: {words}" for words in found.limited_by]
     lines += [table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
     for side, words in ((found.before, "before"), (found.after, "after")):
@@ -185,6 +190,7 @@ def _comparison(found: Design) -> list[tuple[str, str, str]]:
         "voltage, peak": lambda s: f"{s.trial.voltage_peak:.4g} V",
         "motor speed, peak": lambda s: f"{s.trial.speed_peak:.4g} rad/s",
         "voltage above 10 Hz, RMS in the last third": lambda s: f"{s.trial.chatter:.3g} V",
+        "... that sensors' noise explains, where it is worst": lambda s: f"{s.noise.rms:.3g} V",
     }
     rows = [("", "before", "after")]
     return rows + [(words, show(found.before), show(found.after)) for words, show in named.items()]

@@ -20,8 +20,10 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
-UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V"}
+UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
 """Of the limits."""
+NOTED_NOISE = 0.9
+"""Share of the limit on noise from which on it is named among what holds the objective back."""
 SEARCH = 0.85
 """Share of the progress; the simulation of the scenario as it was has most of the rest."""
 BETAS = 40
@@ -89,12 +91,21 @@ def design(
             number of them. Every one is a search of its own.
         demands: margins, at every length between the shortest of the run and an endless one.
         limits: on voltage, speed and chatter in a simulation of the scenario; where gains exceed them, the search
-            is repeated with less effort of the motors.
+            is repeated with less effort of the motors. And on the noise that sensors put on a voltage, which every
+            search keeps.
         operating_thrust: as for :func:`umbilical.design.margins.margins`.
         progress: called with the share done, 0 to 1.
 
     Raises:
         ScenarioError: the scenario has no boundary law with observers, or a period cannot be its own.
+
+    The search takes minutes::
+
+        from umbilical.design.design import design
+        from umbilical.design.rounds import Limits
+
+        found = design(umbilical.load("ringdown"), inner=True, limits=Limits(voltage=60.0))
+        print(found.met, found.missing, found.patch())
     """
     check_design(scenario)
     demands, limits = demands or Demands(), limits or Limits()
@@ -121,8 +132,8 @@ def design(
         values=paces[best] | found.values,
         before=before,
         after=found.side,
-        missing=tuple(_missing(found.side, limits, found.limited)),
-        limited_by=tuple(_limited_by(task, found, motor_gains_kept=motor_gains_kept)),
+        missing=tuple(_missing(found, limits)),
+        limited_by=tuple(_limited_by(task, found, limits, motor_gains_kept=motor_gains_kept)),
         betas=betas,
         reflections=np.array([score.reflection for score in scores]),
         followed=np.array([score.sound for score in scores]),
@@ -140,8 +151,9 @@ def _scores_over(betas: np.ndarray, task: Task, values: Values) -> list[Score]:
     return [judge.score(task.loop(values | {"control.law.slope_gain": float(beta)})) for beta in betas]
 
 
-def _missing(after: Side, limits: Limits, limited: Sequence[str]) -> Iterator[str]:
-    """What the new gains do not reach; ``limited`` names the limits under which was searched."""
+def _missing(found: Outcome, limits: Limits) -> Iterator[str]:
+    """What the new gains do not reach, and what was searched for it."""
+    after = found.side
     change, frequency = after.score.binding
     if not after.meets:
         yield f"the demanded margins are missed; '{change}' at {frequency:.3g} rad/s is used up first"
@@ -149,19 +161,27 @@ def _missing(after: Side, limits: Limits, limited: Sequence[str]) -> Iterator[st
         yield f"the margin '{change}' is missed at some other length, by waves of {frequency:.3g} rad/s"
     if not after.trial.completed:
         yield f"the simulation did not complete: {after.trial.run.reason}"
-    for name, (value, limit) in limits.exceeded(after.trial).items():
+    for name, (value, limit) in limits.exceeded(after).items():
         unit = UNITS[name]
         words = f"{name} {value:.3g} {unit} above the limit of {limit:.3g} {unit}"
-        blame = f", in a search under this limit, too: with respect to {name} the thrusters are the limit"
-        yield words + (blame if name in limited else "")
+        yield words + ("; searches under lower ceilings found no gains that keep it" if name in found.limited else "")
+    if found.quietest and (not after.kept or after.noise.rms > limits.noise):
+        margins = "kept" if found.quietest.kept else "missed"
+        yield f"a search for the least noise of a voltage ended at {found.quietest.noise.rms:.3g} V, margins {margins}"
 
 
-def _limited_by(task: Task, found: Outcome, *, motor_gains_kept: bool) -> Iterator[str]:
+def _limited_by(task: Task, found: Outcome, limits: Limits, *, motor_gains_kept: bool) -> Iterator[str]:
     """What keeps the objective from being served better."""
-    if found.limited:
+    if found.limited and found.side is not found.unlimited:
         yield (
             f"the limit on {' and '.join(found.limited)}: without, the first modes' reflection were"
             f" {found.unlimited.score.reflection:.4g} and the ROV per force {found.unlimited.score.compliance:.3g} m/N"
+        )
+    noise = found.side.noise
+    if noise.rms > NOTED_NOISE * limits.noise:
+        yield (
+            f"the limit on noise: sensors put {noise.rms:.3g} of {limits.noise:.3g} V on a motor at a thrust of"
+            f" {noise.thrust:.3g} N and {noise.length:g} m"
         )
     yield _used_up_first(task, found.side)
     if motor_gains_kept:
@@ -174,12 +194,12 @@ def _used_up_first(task: Task, after: Side) -> str:
     change, frequency = after.score.binding
     where = f"the margin '{change}' at {frequency:.3g} rad/s is used up first"
     if not loop.drives:
-        return f"{where}; the thruster is ideal, so observers and sampling are the limit"
+        return f"{where}; the thruster is ideal"
     motors, hold = judge.motor_lag(loop, frequency)
     ideal = judge.score(sampled_loop(after.scenario.model_copy(update={"ideal_thruster": True}), task.thrust))
     lag = f"{np.degrees(motors):.0f} degrees of lag are the motors', {np.degrees(hold):.0f} the sampling's"
     better = "more" if ideal.trip < after.score.trip else "no more"
-    return f"{where}; there {lag}; ideal thrusters would leave {better} of it"
+    return f"{where}; there {lag}; with the same gains ideal thrusters would leave {better} of it"
 
 
 def check_design(scenario: Scenario) -> None:

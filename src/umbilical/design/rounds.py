@@ -6,15 +6,17 @@ and the next round searches below that.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from umbilical.analysis.margins import usual_lengths
 from umbilical.analysis.sampled import sampled_loop
 from umbilical.design.margins import MarginReport, margins
+from umbilical.design.noise import NO_NOISE, VoltageNoise, voltage_noise
 from umbilical.design.score import Demands, Effort, Judge, Score
-from umbilical.design.search import Task, Values, explore, follow
+from umbilical.design.search import Task, Values, explore, follow, rounded
 from umbilical.design.trial import Trial, attempt
 from umbilical.scenario.scenario import Scenario
 
@@ -26,6 +28,10 @@ SAFER = 0.95
 """A ceiling is so much of what the last simulation would allow: effort and simulation are not proportional."""
 TAMER = 0.5
 """The same where a simulation did not come to its end and says nothing else."""
+SAFE_NOISE = 0.98
+"""A search's share of the limit on noise: its frequencies are few and its gains not rounded yet."""
+EXPLAINED = 1.1
+"""So much more noise in a simulation than predicted is still the sensors': both are estimates."""
 SEARCH, TRIAL = 0.7, 0.3
 """Shares of a round's progress."""
 LIKELY = 0.6
@@ -42,28 +48,40 @@ class Limits:
     Attributes:
         voltage: V.
         speed: rad/s.
-        chatter: RMS of a voltage above 10 Hz in the last third of the run, V.
+        chatter: RMS of a voltage above 10 Hz in the last third of the run, V, beside what sensors' noise explains.
+        noise: RMS of a voltage above 10 Hz from sensors' noise, V, as the linear loop has it where it is worst.
     """
 
     voltage: float = np.inf
     speed: float = np.inf
     chatter: float = 0.05
+    noise: float = 3.0
 
-    def exceeded(self, trial: Trial) -> Excess:
+    def exceeded(self, side: Side) -> Excess:
         """What is too large; nothing is, where there is no number."""
-        values = {"voltage": trial.voltage_peak, "speed": trial.speed_peak, "chatter": trial.chatter}
-        return {name: (x, getattr(self, name)) for name, x in values.items() if x > getattr(self, name)}
+        trial, noise = side.trial, side.noise.rms
+        limits = {
+            "voltage": (trial.voltage_peak, self.voltage),
+            "speed": (trial.speed_peak, self.speed),
+            "chatter": (trial.chatter, float(np.hypot(self.chatter, min(EXPLAINED * noise, self.noise)))),
+            "noise": (noise, self.noise),
+        }
+        return {name: (x, limit) for name, (x, limit) in limits.items() if x > limit}
 
 
 @dataclass(frozen=True)
 class Side:
-    """A scenario before or after: its score, its margins at every length that is asked for, its trial."""
+    """A scenario before or after: its score, its margins at every length that is asked for, its trial, its noise.
+
+    The noise is the worst of all these lengths, at rest, at the operating thrust and at the trial's highest speed.
+    """
 
     scenario: Scenario
     demands: Demands
     score: Score
     report: MarginReport
     trial: Trial
+    noise: VoltageNoise = NO_NOISE
 
     @property
     def meets(self) -> bool:
@@ -86,19 +104,30 @@ class Outcome:
         side: the scenario with them.
         unlimited: the scenario with those of the first round, which knew of no limit.
         limited: names of the limits under which was searched.
+        quietest: the scenario with the gains of a search for the least noise, where there was one.
     """
 
     values: Values
     side: Side
     unlimited: Side
     limited: tuple[str, ...]
+    quietest: Side | None = None
 
 
 def side(task: Task, values: Values, progress: Callable[[float], None] | None = None) -> Side:
     """A scenario with some values, judged and tried."""
     new = task.scenario.replace(values)
     score = Judge(task.scenario, task.shortest, task.demands).score(sampled_loop(new, task.thrust))
-    return Side(new, task.demands, score, _report(task, values), attempt(new, progress=progress))
+    trial = attempt(new, progress=progress)
+    fastest = sum(abs(motor.thrust_coefficient) for motor in new.motors) * trial.speed_peak**2
+    noise = worst_noise(task, new, [thrust for thrust in (0.0, task.thrust, fastest) if np.isfinite(thrust)])
+    return Side(new, task.demands, score, _report(task, values), trial, noise)
+
+
+def worst_noise(task: Task, scenario: Scenario, thrusts: Sequence[float]) -> VoltageNoise:
+    """The largest noise of a voltage at the lengths of the run and at some thrusts, N."""
+    judges = [Judge(scenario, length, task.demands) for length in usual_lengths(scenario)]
+    return max(voltage_noise(judge, sampled_loop(scenario, task.thrust), scenario, thrusts) for judge in judges)
 
 
 def _report(task: Task, values: Values) -> MarginReport:
@@ -107,21 +136,28 @@ def _report(task: Task, values: Values) -> MarginReport:
 
 def design_within(task: Task, limits: Limits, progress: Callable[[float], None]) -> Outcome:
     """The best gains of a task that keep the limits, or those that exceed them least."""
+    noisy = np.isfinite(limits.noise) and worst_noise(task, task.scenario, (0.0, task.thrust)).rms > 0.0
+    if noisy:
+        task = replace(task, noise_ceiling=SAFE_NOISE * limits.noise)
     tried: list[tuple[Values, Side]] = []
     names: set[str] = set()
-    done = 0.0
+    done, quietest = 0.0, None
     for _ in range(ROUNDS):
         ahead = LIKELY * (1.0 - done)
         tried.append(_round(task, tried[-1][0] if tried else None, _part(progress, done, ahead)))
         done += ahead
         now = tried[-1][1]
-        over = limits.exceeded(now.trial)
-        if not now.kept or (now.trial.completed and not over):
+        over = limits.exceeded(now)
+        if not now.kept or (now.trial.completed and not over) or "noise" in names & set(over):
             break
         names |= set(over)
-        task = replace(task, ceilings=_lowered(task.ceilings, now, over))
+        task = replace(task, **_lowered(task, now, over))
+    if noisy and (not now.kept or "noise" in limits.exceeded(now)):
+        calmest = replace(task, noise_ceiling=np.inf, least_noise=True)
+        tried.append(_round(calmest, tried[0][0], _part(progress, done, 1.0 - done)))
+        quietest = tried[-1][1]
     values, best = min(tried, key=lambda pair: badness(pair[1], limits))
-    return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else ())
+    return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else (), quietest)
 
 
 def _round(task: Task, begun: Values | None, progress: Callable[[float], None]) -> tuple[Values, Side]:
@@ -148,17 +184,20 @@ def _keeps(task: Task, values: Values) -> bool:
     return all(task.demands.met_by(j.margins, period) for j in _report(task, values).judgements)
 
 
-def _lowered(ceilings: Effort, now: Side, over: Excess) -> Effort:
+def _lowered(task: Task, now: Side, over: Excess) -> dict[str, Effort | float]:
     """Ceilings under which the next gains should keep the limits that these exceed, or run to the end."""
     shares = {name: SAFER * limit / x for name, (x, limit) in over.items()}
+    quieter = shares.pop("noise", 1.0)
     if not now.trial.completed:
         shares = {"voltage": TAMER, "speed": TAMER}
-    return Effort(**ceilings._asdict() | {name: x * getattr(now.score.effort, name) for name, x in shares.items()})
+    efforts = {name: rounded(x * getattr(now.score.effort, name)) for name, x in shares.items()}
+    ceilings = Effort(**task.ceilings._asdict() | efforts)
+    return {"ceilings": ceilings, "noise_ceiling": rounded(quieter * task.noise_ceiling)}
 
 
 def badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:
     """Margins come first, then a run to its end, then the largest excess over a limit."""
-    excess = max((x / limit for x, limit in limits.exceeded(found.trial).values()), default=1.0)
+    excess = max((x / limit for x, limit in limits.exceeded(found).values()), default=1.0)
     return (not found.kept, not found.trial.completed, excess)
 
 

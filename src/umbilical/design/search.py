@@ -1,4 +1,9 @@
-"""The search for gains: differential evolution over a few knobs, the same result every time."""
+"""The search for gains: differential evolution over a few knobs, the same result every time and everywhere.
+
+The last bits of a number depend on the processor, and a local search that takes differences of a largest value makes
+other gains of them. So points and what is asked of them are rounded before anything is decided by them, and the
+differences are taken over steps that are large beside the rounding.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from umbilical.analysis.sampled import SampledLoop, sampled_loop
+from umbilical.design.noise import voltage_noise
 from umbilical.design.score import SPARE, Demands, Effort, Judge, Score
 from umbilical.scenario.scenario import Scenario
 
@@ -21,8 +27,14 @@ MEMBERS = 6
 """Members of the population per knob."""
 DIGITS = 4
 """Significant digits of a gain that is found; more would say something about the search only."""
+POINT_DIGITS, VALUE_DIGITS = 9, 8
+"""Decimals of a knob's logarithm and of what is asked of it; the processor moves the 13th."""
+DIFFERENCE = 1e-4
+"""Step of a knob's logarithm over which a local search takes differences."""
 STRICTNESS = 100.0
 """Cost of a round trip 1 too large: a tenth of it outweighs any reflection."""
+CALMNESS = 10.0
+"""Cost of noise e times too large: less than of a margin, which comes first where there is no keeping both."""
 WORST = 1e4
 """Cost of an unstable pole: nothing else means anything then."""
 FIRMER = 0.02
@@ -85,6 +97,8 @@ class Task:
         thrust: steady thrust at which the motors are linearised, N.
         ceilings: largest effort of the motors, in its own units.
         present: whose gains and periods say what "no worse" means; the scenario if left out.
+        noise_ceiling: largest noise of a voltage above 10 Hz, V, at rest and at ``thrust``.
+        least_noise: whether that noise shall be as small as possible, whatever the objective is.
     """
 
     scenario: Scenario
@@ -95,6 +109,8 @@ class Task:
     thrust: float
     ceilings: Effort = NO_CEILINGS
     present: Scenario | None = None
+    noise_ceiling: float = np.inf
+    least_noise: bool = False
 
     def judge(self, *, quick: bool = False) -> Judge:
         """Judge of a loop by the demands; of its effort where ceilings ask for that."""
@@ -143,7 +159,8 @@ def follow(task: Task, begun: Values) -> Values:
     scores, point = Scores(task, task.judge()), _point(task, begun)
     local = minimize(
         scores.objective, point, method="SLSQP", bounds=task.bounds,
-        constraints={"type": "ineq", "fun": scores.room}, options={"maxiter": LOCAL_STEPS, "ftol": 1e-5},
+        constraints={"type": "ineq", "fun": scores.all_room},
+        options={"maxiter": LOCAL_STEPS, "ftol": 1e-5, "eps": DIFFERENCE},
     )  # fmt: skip
     best = min((point, local.x), key=scores.cost)
     return {key: rounded(value) for key, value in task.values(best).items()}
@@ -165,20 +182,35 @@ class Scores:
         self._generations, self._progress = generations, progress
         self._before = self._judge.score(sampled_loop(task.present or task.scenario, task.thrust))
         self._known: dict[bytes, Score] = {}
+        self._noise: dict[bytes, float] = {}
         self._done = 0
 
     def score(self, x: np.ndarray) -> Score:
         """All of it."""
+        x = np.round(x, POINT_DIGITS)
         key = x.tobytes()
         if key not in self._known:
             self._known[key] = self._judge.score(self._task.loop(self._task.values(x)))
         return self._known[key]
 
+    def noise(self, x: np.ndarray) -> float:
+        """Of a voltage, at rest and at the operating thrust, V."""
+        x, task = np.round(x, POINT_DIGITS), self._task
+        key = x.tobytes()
+        if key not in self._noise:
+            values = task.values(x)
+            new = changed(task.scenario, values)
+            self._noise[key] = voltage_noise(self._judge, task.loop(values), new, (0.0, task.thrust)).rms
+        return self._noise[key]
+
     def objective(self, x: np.ndarray) -> float:
         """What shall be small."""
+        if self._task.least_noise:
+            return round(float(np.log(self.noise(x))), VALUE_DIGITS)
         score = self.score(x)
         rejection = self._task.objective == "rejection"
-        return float(np.log(score.compliance / self._before.compliance)) if rejection else score.reflection
+        value = float(np.log(score.compliance / self._before.compliance)) if rejection else score.reflection
+        return round(value, VALUE_DIGITS)
 
     def room(self, x: np.ndarray) -> np.ndarray:
         """What must not be negative: round trips below 1, efforts below ceilings, nothing lost beside the aim."""
@@ -190,12 +222,22 @@ class Scores:
                 room.append(self._before.reflection - score.reflection)
             case "both":
                 room.append(np.log(self._before.compliance / score.compliance) - FIRMER)
-        return np.array(room)
+        return np.round(room, VALUE_DIGITS)
+
+    def calm(self, x: np.ndarray) -> float:
+        """What the noise leaves of its ceiling, as a logarithm."""
+        ceiling = self._task.noise_ceiling
+        return round(float(np.log(ceiling / self.noise(x))), VALUE_DIGITS) if np.isfinite(ceiling) else 0.0
+
+    def all_room(self, x: np.ndarray) -> np.ndarray:
+        """Room and what the noise leaves."""
+        return np.append(self.room(x), self.calm(x))
 
     def cost(self, x: np.ndarray) -> float:
         """Objective and what is missing to the rest in one number."""
         missing = np.maximum(0.0, -self.room(x)).sum()
-        return self.objective(x) + STRICTNESS * float(missing) + WORST * abs(self.score(x).unstable)
+        loud = max(0.0, -self.calm(x))
+        return self.objective(x) + STRICTNESS * float(missing) + CALMNESS * loud + WORST * abs(self.score(x).unstable)
 
     def generation(self, x: np.ndarray, convergence: float) -> None:
         """One generation is done."""

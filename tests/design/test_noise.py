@@ -1,0 +1,214 @@
+"""Sensors' noise in the voltages: predicted by the sampled linear loop, held against simulations of the whole loop."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import umbilical
+from umbilical.analysis.controller import root_slope
+from umbilical.analysis.sampled import sampled_loop
+from umbilical.design import rounds
+from umbilical.design.design import _missing
+from umbilical.design.margins import margins
+from umbilical.design.noise import NO_NOISE, VoltageNoise, reading_noise, voltage_noise
+from umbilical.design.rounds import Limits, Outcome, Side, badness
+from umbilical.design.score import Demands, Judge
+from umbilical.design.search import Knob, Task, explore, follow
+from umbilical.design.trial import attempt
+from umbilical.scenario.scenario import Scenario
+
+AT_REST = {"initial.shape": "straight", "grid.elements": 8, "duration": 6.0}
+PUSHED = AT_REST | {"environment.payload_force": [{"kind": "constant", "value": 50.0}]}
+NOISE = {"sensors.tip_displacement.noise": 1e-5, "sensors.tip_slope.noise": 1e-6}
+FAST = {
+    "control.law.slope_gain": 12.42, "control.law.damping_gain": 549.2,
+    "control.velocity_observer.time_constant": 0.002, "control.velocity_observer.damping": 1.0,
+    "control.slope_observer.time_constant": 0.8568, "control.slope_observer.damping": 1.0,
+    "control.disturbance_observer.gain": 85.11, "control.motor_loop.filter_frequency": 900.0,
+    "control.motor_loop.speed_gain": 282.4, "control.motor_loop.current_gain": 359.6,
+}  # fmt: skip
+"""Gains that a search without noise finds."""
+
+
+def predicted(scenario: Scenario, thrust: float, length: float = 400.0) -> float:
+    judge = Judge(scenario, length, Demands(), quick=True)
+    return voltage_noise(judge, sampled_loop(scenario, 50.0), scenario, [thrust]).rms
+
+
+@pytest.mark.parametrize(
+    ("changes", "thrust"),
+    [
+        (PUSHED | NOISE, 50.0),
+        (AT_REST | NOISE, 0.0),  # the demand crosses the root's steep part: its mean slope counts
+        (AT_REST | NOISE | FAST, 0.0),
+        (PUSHED | {"sensors.motor_speed.noise": 1e-3, "sensors.motor_current.noise": 1e-3}, 50.0),
+        (PUSHED | {"sensors.tip_displacement.noise": 1e-7, "sensors.tip_slope.latency": 0.002}, 50.0),
+        (
+            PUSHED
+            | NOISE
+            | {"control.outer_period": 0.004}
+            | {f"control.{name}_observer.time_constant": 0.01 for name in ("velocity", "slope")},
+            50.0,
+        ),
+    ],
+    ids=["pushed", "at rest", "at rest, fast gains", "motor sensors", "one sensor", "slow outer law"],
+)
+def test_a_simulation_has_the_noise_that_is_predicted(changes, thrust):
+    scenario = umbilical.load("ringdown", changes)
+    assert attempt(scenario).chatter == pytest.approx(predicted(scenario, thrust), rel=0.1)
+
+
+def test_noise_grows_in_proportion_where_the_root_is_smooth_and_slower_at_rest():
+    once, twice = (
+        umbilical.load("ringdown", {key: factor * value for key, value in NOISE.items()}) for factor in (1.0, 2.0)
+    )
+    assert predicted(twice, 500.0) == pytest.approx(2.0 * predicted(once, 500.0), rel=0.01)
+    assert predicted(twice, 0.0) == pytest.approx(np.sqrt(2.0) * predicted(once, 0.0), rel=0.01)
+
+
+def test_echoes_add_noise():
+    """Near the end of its margins the loop returns waves of 120 rad/s almost whole, where the cable lets them."""
+    damped, free = (umbilical.load("ringdown", NOISE | FAST | {"cable.damping": c}) for c in (5.0, 0.001))
+    assert predicted(free, 0.0) > 1.005 * predicted(damped, 0.0)
+    assert predicted(damped, 0.0, 20.0) > predicted(damped, 0.0)
+
+
+def test_the_verdict_is_of_the_worst_length_and_thrust():
+    task = Task(umbilical.load("paper", NOISE), [], "both", Demands(), 400.0, 500.0)
+    worst = rounds.worst_noise(task, task.scenario, (0.0, 500.0))
+    judges = [Judge(task.scenario, length, Demands()) for length in (400.0, 450.0, 500.0)]
+    each = [voltage_noise(judge, task.loop({}), task.scenario, [thrust]) for judge in judges for thrust in (0.0, 500.0)]
+    assert worst.thrust == 0.0
+    assert worst.rms == pytest.approx(max(each).rms, rel=0.01)
+
+
+def test_a_resolution_is_noise_of_its_twelfths_root():
+    fine = umbilical.load("ringdown", {"sensors.tip_displacement.resolution": 1.2e-5})
+    same = umbilical.load("ringdown", {"sensors.tip_displacement.noise": 1.2e-5 / np.sqrt(12.0)})
+    assert reading_noise(fine) == pytest.approx(reading_noise(same))
+    assert predicted(fine, 0.0) == pytest.approx(predicted(same, 0.0))
+
+
+def test_nothing_comes_of_perfect_sensors_ideal_thrusters_and_periods_too_long_for_10_hz():
+    assert predicted(umbilical.load("ringdown"), 0.0) == 0.0
+    assert predicted(umbilical.load("ringdown", NOISE | {"ideal_thruster": True}), 0.0) == 0.0
+    judge, slow = Judge(umbilical.load("ringdown"), 400.0, Demands()), umbilical.load("ringdown", NOISE)
+    loop = replace(sampled_loop(slow, 50.0), period=0.06)
+    assert voltage_noise(judge, loop, slow, [0.0]) == NO_NOISE
+
+
+@pytest.mark.parametrize("spread", [1e-6, 1e-3, 0.1, 30.0])
+@pytest.mark.parametrize("demand", [0.0, 2.0, 25.0])
+def test_mean_slope_of_the_root(demand, spread):
+    """Against the plain mean over a fine grid of demands, which the steep part at 0 has many points of."""
+    x = np.linspace(-7.0, 7.0, 2_000_001)
+    likelihood = np.exp(-0.5 * x * x)
+    u = demand + spread * x
+    slopes = (0.5 * u * u + 1e-6) / (u * u + 1e-6) ** 1.25
+    assert root_slope(demand, 1e-3, spread) == pytest.approx((slopes * likelihood).sum() / likelihood.sum(), rel=0.01)
+
+
+TWO = [Knob("control.velocity_observer.time_constant", 0.002, 0.1), Knob("control.law.damping_gain", 50.0, 1e4)]
+SLOW = {"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0}
+
+
+def test_a_search_keeps_a_ceiling_of_noise_and_pays_for_it():
+    noisy = umbilical.load("ringdown", NOISE | SLOW | {"control.law.slope_gain": 2.0})
+    free = Task(noisy, TWO, "rejection", Demands(), 400.0, 50.0)
+    judge = free.judge()
+    found = []
+    for ceiling in (np.inf, 0.2):
+        task = replace(free, noise_ceiling=ceiling)
+        gains = follow(task, explore(task, generations=4))
+        new = noisy.replace(gains)
+        found.append((voltage_noise(judge, task.loop(gains), new, [0.0, 50.0]).rms, judge.score(task.loop(gains))))
+    (loud, open_), (quiet, bound) = found
+    assert bound.sound
+    assert quiet < 0.201 < loud
+    assert bound.compliance > open_.compliance
+
+
+def test_where_noise_and_margins_cannot_both_be_kept_margins_come_first():
+    noisy = umbilical.load("ringdown", NOISE | SLOW | {"control.law.slope_gain": 2.0})
+    task = Task(noisy, TWO, "ringdown", Demands(), 400.0, 50.0, least_noise=True)
+    gains = follow(task, explore(task, generations=4))
+    least = voltage_noise(task.judge(), task.loop(gains), noisy.replace(gains), [0.0, 50.0]).rms
+    assert task.judge().score(task.loop(gains)).sound
+    asked = replace(task, least_noise=False, noise_ceiling=1e-3 * least)
+    assert explore(asked, generations=4).keys() == gains.keys()
+    loud = Side(
+        noisy, Demands(), task.judge().score(task.loop(gains)), margins(noisy), TRIAL, VoltageNoise(5.0, 0.0, 400.0)
+    )
+    assert badness(loud, Limits(noise=1.0))[2] == pytest.approx(5.0)
+
+
+TRIAL = attempt(umbilical.load("ringdown", {"duration": 0.5, "grid.elements": 8}))
+
+
+def side(noise: float, *, sound: bool = True) -> Side:
+    scenario = umbilical.load("ringdown", NOISE)
+    task = Task(scenario, [], "both", Demands() if sound else Demands(100.0), 400.0, 50.0)
+    gains = {"control.law.slope_gain": 2.0} | SLOW
+    demands = Demands(0.5, 0.0, 0.0)
+    return Side(
+        scenario,
+        demands,
+        task.judge().score(task.loop(gains)),
+        margins(scenario),
+        TRIAL,
+        VoltageNoise(noise, 0.0, 400.0),
+    )
+
+
+def test_noise_above_its_limit_is_missing_and_the_search_for_the_least_is_told():
+    loud, least = side(5.0), side(4.0)
+    said = list(_missing(Outcome({}, loud, loud, (), least), Limits()))
+    assert any("noise 5 V above the limit of 3 V" in words for words in said)
+    assert any("the least noise of a voltage ended at 4 V, margins kept" in words for words in said)
+    assert not any("thruster" in words for words in said)
+    assert list(_missing(Outcome({}, side(2.0), loud, (), least), Limits())) == []
+
+
+def test_what_the_noise_explains_is_no_chatter():
+    trial = replace(TRIAL, chatter=1.0)
+    assert "chatter" in Limits().exceeded(replace(side(0.0), trial=trial))
+    assert Limits().exceeded(replace(side(1.0), trial=trial)) == {}
+    assert set(Limits().exceeded(replace(side(1.0), trial=replace(TRIAL, chatter=3.1)))) == {"chatter"}
+
+
+def test_the_least_noise_is_searched_for_where_the_limit_is_not_reached(monkeypatch):
+    asked = []
+
+    def one_round(task, begun, progress):
+        asked.append((task.noise_ceiling, task.least_noise))
+        return {}, side(4.0 if task.least_noise else 5.0)
+
+    monkeypatch.setattr(rounds, "_round", one_round)
+    monkeypatch.setattr(Side, "kept", property(lambda side: True))
+    task = Task(umbilical.load("ringdown", NOISE), [], "both", Demands(), 400.0, 50.0)
+    outcome = rounds.design_within(task, Limits(), lambda share: None)
+    assert outcome.side.noise.rms == 4.0
+    assert asked[0] == (pytest.approx(2.94), False)
+    assert asked[-1] == (np.inf, True)
+    assert asked[1][0] < asked[0][0]
+    assert rounds.design_within(task, Limits(noise=6.0), lambda share: None).quietest is None
+
+
+@pytest.mark.slow
+def test_design_for_noisy_sensors_keeps_the_voltages_calm_with_all_margins():
+    """The same thrusters, with the gains of a design that knows no noise: 471 V."""
+    from umbilical.design.design import design
+
+    found = design(umbilical.load("ringdown", NOISE), inner=True)
+    assert found.met, found.missing
+    assert found.after.trial.chatter < 3.0
+    assert found.after.noise.rms < 3.0
+    assert found.after.kept
+    assert found.after.score.reflection < found.before.score.reflection
+    seeds = [umbilical.load("ringdown", NOISE | {"seed": seed}).replace(found.values) for seed in (1, 2)]
+    assert all(attempt(scenario).chatter < 3.0 for scenario in seeds)
+    short = {"duration": 15.0}
+    assert attempt(umbilical.load("ringdown", NOISE | FAST | short)).chatter > 100.0
