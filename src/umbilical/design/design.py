@@ -22,7 +22,7 @@ from umbilical.scenario.scenario import Scenario
 
 UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
 """Of the limits."""
-NOTED_NOISE = 0.9
+NOTED_NOISE = 0.8
 """Share of the limit on noise from which on it is named among what holds the objective back."""
 SEARCH = 0.85
 """Share of the progress; the simulation of the scenario as it was has most of the rest."""

@@ -1,0 +1,95 @@
+"""A design does not hang on the last bits: other rounding errors, another processor, another BLAS, the same gains."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import umbilical
+from umbilical.design import search
+from umbilical.design.score import Demands, Judge
+from umbilical.design.search import Task, Values, follow, inner_knobs, outer_knobs
+
+RINGDOWN = umbilical.load("ringdown")
+NEAR = {
+    "control.law.slope_gain": 11.3, "control.law.damping_gain": 545.0,
+    "control.velocity_observer.time_constant": 0.00224, "control.velocity_observer.damping": 1.23,
+    "control.slope_observer.time_constant": 0.821, "control.slope_observer.damping": 1.3,
+    "control.disturbance_observer.gain": 79.0, "control.motor_loop.filter_frequency": 873.0,
+    "control.motor_loop.speed_gain": 250.0, "control.motor_loop.current_gain": 316.0,
+}  # fmt: skip
+GAINS, RESULTS = 0.01, 0.02
+"""Relative tolerances that docs/design.md states, of gains and of what a simulation gives with them."""
+SHORT_DESIGN = """
+import json, umbilical
+from umbilical.design import rounds
+from umbilical.design.design import design
+rounds.GENERATIONS = 4
+short = {"grid.elements": 8, "duration": 4.0}
+found = design(umbilical.load("ringdown", short), "both", inner=True)
+trial = found.after.trial
+print(json.dumps([found.values, [found.after.score.reflection, trial.late_mid_peak, trial.voltage_peak]]))
+"""
+
+
+@pytest.fixture
+def with_other_bits(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], Values]:
+    """Gains of a short local search whose scores all have rounding errors of their own."""
+    monkeypatch.setattr(search, "LOCAL_STEPS", 6)
+    monkeypatch.setattr("umbilical.design.score.POINTS", 120)
+    exact = Judge.score
+
+    def found(seed: int) -> Values:
+        draw = np.random.default_rng(seed)
+
+        def score(judge, loop):
+            s = exact(judge, loop)
+            errors = 1.0 + 1e-13 * draw.standard_normal(s.trips.size + 2)
+            return s._replace(
+                reflection=s.reflection * errors[0], compliance=s.compliance * errors[1], trips=s.trips * errors[2:]
+            )
+
+        monkeypatch.setattr(Judge, "score", score)
+        knobs = outer_knobs(RINGDOWN, 50.0) + inner_knobs(RINGDOWN)
+        return follow(Task(RINGDOWN, knobs, "both", Demands().beyond(1.0), 400.0, 50.0), NEAR)
+
+    return found
+
+
+def test_rounding_errors_leave_the_gains_as_they_are(with_other_bits):
+    one, two = with_other_bits(1), with_other_bits(2)
+    assert one.keys() == two.keys()
+    assert list(one.values()) == pytest.approx(list(two.values()), rel=GAINS)
+    assert list(one.values()) != pytest.approx(list(NEAR.values()), rel=GAINS)  # the search went somewhere
+
+
+def test_without_rounding_the_same_errors_are_noticed(with_other_bits, monkeypatch):
+    """Negative control: as the search was, its differences were taken over the square root of the last bit."""
+    monkeypatch.setattr(search, "POINT_DIGITS", 17)
+    monkeypatch.setattr(search, "VALUE_DIGITS", 17)
+    monkeypatch.setattr(search, "DIFFERENCE", 1.5e-8)
+    one, two = with_other_bits(1), with_other_bits(2)
+    assert one != two
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "processor",
+    [{"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "OPENBLAS_CORETYPE": "Prescott"}],
+    ids=["generic, Prescott"],
+)
+def test_another_processor_and_another_blas_find_the_same_gains(processor):
+    kinds = ({}, processor)
+    done = [
+        subprocess.run([sys.executable, "-c", SHORT_DESIGN], env=os.environ | kind, capture_output=True, check=True)
+        for kind in kinds
+    ]
+    (gains, results), (others, others_results) = (json.loads(process.stdout) for process in done)
+    assert gains == pytest.approx(others, rel=GAINS)
+    assert results == pytest.approx(others_results, rel=RESULTS)
