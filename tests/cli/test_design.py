@@ -17,3 +17,21 @@ def test_a_period_that_does_not_fit_is_refused_with_everything_that_does_not(umb
     assert done.code == 2
     assert "control.motor_loop.speed_gain" in done.err
     assert "control.motor_loop.observer_gain" in done.err
+
+
+@pytest.mark.parametrize(("met", "code", "words"), [(True, 0, "limits are kept"), (False, 7, "NOT everything is kept")])
+def test_one_verdict_decides_first_line_and_exit_code(met: bool, code: int, words: str) -> None:
+    from types import SimpleNamespace
+    from typing import Any
+
+    from umbilical.cli.designing import conclusion
+
+    scenario = SimpleNamespace(name="mine")
+    found: Any = SimpleNamespace(met=met, objective="both", after=SimpleNamespace(scenario=scenario))
+    assert (conclusion(found).exit_code, words in conclusion(found).headline) == (code, True)
+
+
+def test_a_limit_has_one_of_four_names(umbilical) -> None:
+    done = umbilical("design", "ringdown", "--limits", "noise=3,loudness=3")
+    assert done.code == 2
+    assert "loudness=3" in done.err
