@@ -79,6 +79,15 @@ def test_a_reader_that_leaves_is_no_bug():
     assert (done.returncode, done.stderr) == (4, "")
 
 
+def test_no_command_simulates_what_the_disk_cannot_hold(umbilical, monkeypatch, tmp_path):
+    from umbilical import machine
+
+    monkeypatch.setattr(machine, "room", lambda folder: 1e6)
+    done = umbilical("run", "paper", "--out", tmp_path / "a.nc")
+    assert done.code == 4
+    assert "the result takes 6.7 MB, and the disk has 1 MB left" in done.err
+
+
 def _raiser(error: BaseException):
     def raising(*_arguments, **_options):
         raise error

@@ -69,3 +69,27 @@ def test_a_misspelt_name_is_an_attribute_error():
 def test_importing_the_package_imports_next_to_nothing():
     script = "import sys, umbilical; raise SystemExit(any(m in sys.modules for m in ('numpy', 'pydantic', 'numba')))"
     assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
+
+
+def test_a_report_shows_itself_in_one_line():
+    from umbilical import certify, load, margins
+
+    for found in (margins(load("paper"), lengths=[450.0]), certify(load("paper", {"duration": 1.0}))):
+        assert len(repr(found)) < 200
+        assert "paper: " in repr(found)
+        assert len(found._repr_html_()) < 3000
+
+
+def test_doctor_lists_what_the_extras_install():
+    import tomllib
+    from pathlib import Path
+
+    from umbilical.cli.doctoring import PARTNERS
+
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
+    extras = {name for texts in project["optional-dependencies"].values() for name in map(_package, texts)}
+    assert set(PARTNERS) <= extras
+
+
+def _package(requirement: str) -> str:
+    return requirement.partition(">")[0].partition("[")[0]

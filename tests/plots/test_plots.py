@@ -164,3 +164,17 @@ def test_pyplot_is_never_touched(run, tmp_path):
         "raise SystemExit('matplotlib.pyplot' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", script, stored], check=False).returncode == 0
+
+
+def test_runs_are_overlaid_with_their_names(run, free):
+    axes = plots.plot_tip([run, free])
+    names = [run.scenario.name, free.scenario.name]
+    assert [line.get_label() for line in axes.lines[:2]] == names
+    assert np.array_equal(axes.lines[1].get_ydata(), free["tip_displacement"].values)
+    with pytest.raises(ValueError, match="no run"):
+        plots.plot_tip([])
+
+
+@pytest.mark.parametrize("name", ["tip", "overview"])
+def test_a_notebook_shows_the_picture(run, name):
+    assert plots.PLOTS[name](run)._repr_png_().startswith(b"\x89PNG")

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
-from umbilical.admission import controller, equipment, inherited, motion, sampling, statics, steps, timeline, weights
+from umbilical.admission import (
+    controller,
+    equipment,
+    inherited,
+    motion,
+    sampling,
+    sizes,
+    statics,
+    steps,
+    timeline,
+    weights,
+)
 
 CHECKS = (
     timeline.grid_of_time,
     timeline.size_of_the_run,
+    sizes.large_result,
+    sizes.instants,
     timeline.signals_of_the_environment,
     timeline.signals_of_the_motors,
     timeline.tables_of_the_winch,

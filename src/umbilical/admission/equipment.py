@@ -7,14 +7,13 @@ from itertools import combinations
 from math import inf
 
 from umbilical.admission.findings import Finding, amount
+from umbilical.admission.timeline import MOST_JUMPS
 from umbilical.errors import Problem
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario.control import Control, NoControl
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Stuck
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.sensors import Channel, Sensors
-
-_MOST_CYCLES = 1e6
 
 
 def motors_are_there(motors: Sequence[Motor], ideal_thruster: bool, control: Control) -> Iterator[Finding]:
@@ -81,11 +80,12 @@ def faults_end_after_they_start(faults: Sequence[Fault]) -> Iterator[Finding]:
 def intermittent_faults(faults: Sequence[Fault], duration: float) -> Iterator[Finding]:
     """An intermittent fault switches a number of times that can be simulated."""
     for number, fault in enumerate(faults, start=1):
-        if isinstance(fault, Intermittent) and duration / fault.cycle > _MOST_CYCLES:
+        present = max(min(fault.end or duration, duration) - fault.start, 0.0)
+        if isinstance(fault, Intermittent) and 2.0 * present / fault.cycle > MOST_JUMPS:
             yield Problem(
                 f"faults.{number}.cycle",
                 amount(fault.cycle, "s"),
-                f"at least {duration / _MOST_CYCLES:g} s",
+                f"at least {2.0 * present / MOST_JUMPS:g} s, for {MOST_JUMPS:g} switches",
                 "a step of the plant ends on each switch",
                 "a longer cycle",
             )

@@ -23,6 +23,8 @@ from umbilical.scenario.winch import TabulatedLength, Winch
 
 MOST_STEPS = 1e8
 _MOST_STORED = 1e8
+MOST_JUMPS = 1e5
+"""Instants of one fault or signal at which a step of the plant must end; as many take some seconds."""
 _SHAPE = TableOf("initial", "positions", "displacements", (0.0, 1.0), exact=True)
 _UNITS = {"payload_force": "N", "vessel_motion": "m", "signal": "N/m", "torque_disturbance": "N m",
           "voltage_disturbance": "V"}  # fmt: skip
@@ -73,13 +75,13 @@ def size_of_the_run(duration: float, control: Control, grid: Grid, output: Outpu
 
 def signals_of_the_environment(environment: Environment, duration: float) -> Iterator[Finding]:
     """Terms of the loads and of the vessel's motion make sense and cover the run."""
-    for key, signal in _of_environment(environment):
+    for key, signal in of_environment(environment):
         yield from _signal(key, signal, duration)
 
 
 def signals_of_the_motors(motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
     """Terms of the motors' disturbances make sense and cover the run."""
-    for key, signal in _of_motors(motors):
+    for key, signal in of_motors(motors):
         yield from _signal(key, signal, duration)
 
 
@@ -91,13 +93,13 @@ def tables_of_the_winch(winch: Winch, duration: float) -> Iterator[Finding]:
 
 def smooth_environment(environment: Environment, duration: float) -> Iterator[Finding]:
     """Smooth tables of the loads and of the vessel's motion stay near their data."""
-    for key, signal in _of_environment(environment):
+    for key, signal in of_environment(environment):
         yield from _smooth(key, signal, duration)
 
 
 def smooth_motors(motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
     """Smooth tables of the motors' disturbances stay near their data."""
-    for key, signal in _of_motors(motors):
+    for key, signal in of_motors(motors):
         yield from _smooth(key, signal, duration)
 
 
@@ -129,7 +131,7 @@ def jumps_after_the_end(
 ) -> Iterator[Finding]:
     """What comes after the end of the run never happens: allowed, but worth a word."""
     starts = {f"faults.{number}.start": fault.start for number, fault in enumerate(faults, start=1)}
-    for key, signal in (*_of_environment(environment), *_of_motors(motors)):
+    for key, signal in (*of_environment(environment), *of_motors(motors)):
         for number, term in enumerate(signal, start=1):
             if not isinstance(term, Table) and (instants := signals.jumps((term,))):
                 starts[f"{key}.{number}.{'start' if isinstance(term, Pulse) else 'time'}"] = instants[0]
@@ -161,14 +163,14 @@ def _leaves(data: object, path: str = "") -> Iterator[str]:
         yield from _leaves(part, f"{path}.{name}" if path else str(name))
 
 
-def _of_environment(environment: Environment) -> Iterator[tuple[str, Signal]]:
+def of_environment(environment: Environment) -> Iterator[tuple[str, Signal]]:
     yield "environment.payload_force", environment.payload_force
     yield "environment.vessel_motion", environment.vessel_motion
     for number, load in enumerate(environment.cable_load, start=1):
         yield f"environment.cable_load.{number}.signal", load.signal
 
 
-def _of_motors(motors: Sequence[Motor]) -> Iterator[tuple[str, Signal]]:
+def of_motors(motors: Sequence[Motor]) -> Iterator[tuple[str, Signal]]:
     for number, motor in enumerate(motors, start=1):
         yield f"motors.{number}.torque_disturbance", motor.torque_disturbance
         yield f"motors.{number}.voltage_disturbance", motor.voltage_disturbance

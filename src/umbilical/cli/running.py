@@ -11,7 +11,7 @@ from typer import Argument, Option
 from umbilical.cli.options import Changes, Force, Json, Plot
 from umbilical.cli.speech import run_document, say, say_json, tell
 from umbilical.cli.targets import PICTURES, check_target
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import OutputError, Problem, ScenarioError
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -40,6 +40,7 @@ def run(
     chosen = load_changed(scenario, changes or [])
     if out:
         check_target(out, ("nc",), force=force)
+        _check_size(chosen, out)
     if plot:
         check_target(plot, PICTURES, force=force)
     from umbilical.cli.progress import simulate_visibly
@@ -51,6 +52,17 @@ def run(
     else:
         say(_report(result, files, scenario))
     return result.status.exit_code
+
+
+def _check_size(scenario: Scenario, out: Path) -> None:
+    """Say before a long run what its result takes; OutputError if the disk has not the room."""
+    from umbilical.admission.sizes import LARGE, result_size
+    from umbilical.machine import in_words, room
+
+    if (size := result_size(scenario)) > (free := room(out.parent)):
+        raise OutputError(f"{out}: the result takes {in_words(size)}, and the disk has {in_words(free)} left")
+    if size >= LARGE:
+        tell(f"{out}: the result will take {in_words(size)}")
 
 
 def load_changed(source: str, changes: Sequence[str]) -> Scenario:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import TypeVar
 
 from umbilical.analysis.impedance import hanging_cable
@@ -34,6 +35,14 @@ class MarginReport:
     judgements: tuple[Judgement, ...]
     grids: tuple[GridJudgement, ...] = ()
     check: MatrixCheck | None = None
+
+    def __repr__(self) -> str:
+        lengths = ", ".join(f"{judgement.length:g}" for judgement in self.judgements)
+        state = "stable" if self.stable else "unstable"
+        return f"<MarginReport {self.scenario.name}: {state}, resolved {self.resolved}, at {lengths} m>"
+
+    def _repr_html_(self) -> str:
+        return f"<p><b>{escape(repr(self))}</b></p>"
 
     @property
     def stable(self) -> bool:

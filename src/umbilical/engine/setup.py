@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from umbilical.admission.sizes import check_memory
 from umbilical.admission.steps import chosen_step
 from umbilical.compile import announce
 from umbilical.control import cascade
@@ -35,7 +36,12 @@ def set_up(scenario: Scenario, *, stored: bool = True, kernel: str = "run_steps"
 
     With ``stored`` false the record holds the first and the last sample only, and no power is booked.
     ``kernel`` is the loop that will run, should it have to be compiled.
+
+    Raises:
+        ScenarioError: the samples would not fit into this machine's memory.
     """
+    if stored:
+        check_memory(scenario)
     announce(kernel)
     jumps = published_jumps(scenario)
     clock = make_clock(scenario.duration, scenario.control.period, chosen_step(scenario), jumps)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -34,6 +34,9 @@ ONE_ROW = 4
 """Names in one row of a legend; it stands above the axes, where no curve is."""
 
 
+_Drawn = TypeVar("_Drawn", "Axes", "Figure")
+
+
 def axes_for(run: Run, ax: Axes | None) -> Axes:
     """The axes given, or those of a new figure.
 
@@ -42,14 +45,22 @@ def axes_for(run: Run, ax: Axes | None) -> Axes:
     """
     if run["time"].size < 2:
         raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
-    return new_figure(8.0, 4.0).add_subplot() if ax is None else ax
+    if ax is not None:
+        return ax
+    return _shown_in_notebooks(new_figure(8.0, 4.0).add_subplot())
 
 
 def new_figure(width: float, height: float) -> Figure:
     """A figure that pyplot does not know of; inches."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(width, height), layout="constrained")
+    return _shown_in_notebooks(Figure(figsize=(width, height), layout="constrained"))
+
+
+def _shown_in_notebooks(drawn: _Drawn) -> _Drawn:
+    """Let a notebook show the picture, which it does by itself only for figures that pyplot knows of."""
+    drawn.__dict__["_repr_png_"] = lambda: render(as_figure(drawn), "png", dpi=100)
+    return drawn
 
 
 def as_figure(drawn: Axes | Figure) -> Figure:

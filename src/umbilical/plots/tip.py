@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from umbilical.plots.figure import axes_for, axis_label, draw, finish
+from umbilical.run import Run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from umbilical.run import Run
 
-
-def plot_tip(run: Run, *, ax: Axes | None = None) -> Axes:
-    """Displacement of the ROV over time, m."""
-    ax = axes_for(run, ax)
-    y = run["tip_displacement"]
-    draw(ax, y)
-    return finish(ax, run, y.attrs["long_name"], axis_label(y))
+def plot_tip(run: Run | Sequence[Run], *, ax: Axes | None = None) -> Axes:
+    """Displacement of the ROV over time, m; of several runs one line each, named by scenario."""
+    runs = [run] if isinstance(run, Run) else list(run)
+    if not runs:
+        raise ValueError("there is no run to draw")
+    ax = axes_for(runs[0], ax)
+    for number, one in enumerate(runs):
+        draw(ax, one["tip_displacement"], one.scenario.name if len(runs) > 1 else "", colour=number)
+    y = runs[0]["tip_displacement"]
+    return finish(ax, runs[0], y.attrs["long_name"], axis_label(y))
 
 
 def plot_thrust(run: Run, *, ax: Axes | None = None) -> Axes:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from typing import NamedTuple
 
 import numpy as np
@@ -167,6 +168,17 @@ class Certificate:
     proof: Proof
     cures: tuple[Problem, ...]
     limits: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        state = f"certified, {self.rate:.4g} 1/s" if self.holds else "NOT certified"
+        return f"<Certificate {self.scenario.name}: {state}>"
+
+    def _repr_html_(self) -> str:
+        cells = (
+            (i.name, f"{i.left:.4g}", f"{i.right:.4g}", i.unit, "" if i.holds else "fails") for i in self.inequalities
+        )
+        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
+        return f"<p><b>{escape(repr(self))}</b></p><table>{rows}</table>"
 
     @property
     def rate(self) -> float:
