@@ -21,6 +21,7 @@ from umbilical.errors import ControllerError, MissingPartnerError, OutputError
         (["show", "."], 2, "folder"),
         (["show", "none.nc"], 2, "there is no such file"),
         (["plot", "none.nc", "--kind", "pie"], 2, "pie"),
+        (["plot", "none.nc", "--kind", "energ"], 2, "did you mean 'energy'?"),
         (["export", "none.nc"], 2, "--to"),
         (["presets", "papre"], 2, "did you mean 'paper'?"),
         (["presets", "--copy", "paper", "no-folder/a.toml"], 4, "there is no folder"),

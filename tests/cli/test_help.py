@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 
@@ -68,3 +69,9 @@ def test_no_command_at_all_shows_the_help(umbilical):
     done = umbilical()
     assert done.code == 2
     assert "Commands:" in done.err
+
+
+def test_a_shell_is_told_what_could_come_next():
+    asked = os.environ | {"_UMBILICAL_COMPLETE": "complete_bash", "COMP_WORDS": "umbilical marg", "COMP_CWORD": "1"}
+    done = subprocess.run([sys.executable, "-m", "umbilical"], env=asked, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout.split()) == (0, ["margins"])

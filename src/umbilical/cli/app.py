@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import traceback
 from collections.abc import Sequence
 from contextlib import suppress
@@ -34,11 +35,13 @@ from umbilical.errors import OutputError, UmbilicalError
 # typer brings its own copy of click and exports only this child of click's UsageError.
 _UsageError: type[Exception] = typer.BadParameter.__mro__[1]
 
+_COMPLETION = "_UMBILICAL_COMPLETE"
+_NO_CHOICE = re.compile("'([^']*)' is not one of (.*)")
+
 _CODES = "\n".join(f"  {code:<4} {meaning}" for code, meaning in EXIT_CODES.items())
 
 app = typer.Typer(
     name="umbilical",
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     no_args_is_help=True,
@@ -101,6 +104,8 @@ def run_command(given: list[str], signals: Sequence[int] = ()) -> int:
     """Run the words of one command line; whatever error comes while ``signals`` holds one is an interruption."""
     # Read when numpy is first imported: our matrices are small, and threads cost them more than they bring.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if _COMPLETION in os.environ:  # a shell asks what could come next; typer answers and exits
+        app(prog_name="umbilical")
     try:
         return _invoke([word for word in given if word != "--debug"])
     except BrokenPipeError:  # the reader has gone
@@ -153,4 +158,15 @@ def _usage(error: Exception) -> str:
     if type(error).__name__ == "NoArgsIsHelpError" and context:
         return context.get_help()
     place = context.command_path if context else "umbilical"
-    return f"umbilical: {getattr(error, 'format_message', error.__str__)()}\nTry '{place} --help'."
+    text = getattr(error, "format_message", error.__str__)()
+    if found := _NO_CHOICE.search(text):
+        text += _hint(found.group(1), re.findall("'([^']*)'", found.group(2)))
+    return f"umbilical: {text}\nTry '{place} --help'."
+
+
+def _hint(word: str, choices: Sequence[str]) -> str:
+    """The choice that a word is a slip of; all of them are in the text already."""
+    from umbilical.scenario.problems import nearest
+
+    found = nearest(word, choices)
+    return f" {found}" if found.startswith("did you") else ""
