@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
@@ -27,14 +27,20 @@ LOCK = ROOT / "requirements.lock"
 
 
 SUPPORTED = ("3.11", "3.12", "3.13")
+TWO_AT_A_TIME = ("-n", "2", "--dist", "worksteal")
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 """Small matrices on many threads take ten times longer when the machine is busy."""
 
 
-def call(*command: str | Path, folder: Path = ROOT, **environment: str) -> bool:
-    """Run a command, from the project's folder unless another is given, with its own output; True when it succeeded."""
-    print("+", *(f"{k}={v}" for k, v in environment.items()), *map(_shown, command), flush=True)
-    done = subprocess.run(list(map(str, command)), cwd=folder, env={**os.environ, **environment}, check=False)
+def call(*command: str | Path, **environment: str) -> bool:
+    """Run a command from the project's folder with its own output; True when it succeeded."""
+    return _call_in(ROOT, command, environment)
+
+
+def _call_in(folder: Path, command: Iterable[str | Path], environment: Mapping[str, str]) -> bool:
+    words = list(command)
+    print("+", *(f"{k}={v}" for k, v in environment.items()), *map(_shown, words), flush=True)
+    done = subprocess.run(list(map(str, words)), cwd=folder, env={**os.environ, **environment}, check=False)
     return done.returncode == 0
 
 
@@ -89,8 +95,8 @@ def run() -> Iterable[bool]:
 
 
 def test() -> Iterable[bool]:
-    """The default tests."""
-    yield call(PYTHON, "-m", "pytest", **ONE_THREAD)
+    """The default tests, two at a time."""
+    yield call(PYTHON, "-m", "pytest", *TWO_AT_A_TIME, **ONE_THREAD)
 
 
 def check() -> Iterable[bool]:
@@ -103,7 +109,7 @@ def check() -> Iterable[bool]:
 
 def thorough() -> Iterable[bool]:
     """Slow tests; kernels as plain Python, with what of them is covered; kernels with their array bounds checked."""
-    yield call(PYTHON, "-m", "pytest", "-m", "slow", "-rs", **ONE_THREAD)
+    yield call(PYTHON, "-m", "pytest", "-m", "slow", "-rs", *TWO_AT_A_TIME, **ONE_THREAD)
     # Only plain Python shows which lines and branches of a kernel a test has been through.
     yield call(PYTHON, "-m", "coverage", "run", "-m", "pytest", "-m", "nojit", NUMBA_DISABLE_JIT="1")
     yield call(PYTHON, "-m", "coverage", "report")
@@ -153,7 +159,7 @@ def _first_run(python: str, wheel: Path, pins: Path, environment: Path) -> Itera
     yield call(with_pip, "-m", "pip", "--python", ours, "install", *quiet, "--constraint", pins, wheel)
     elsewhere = environment / "elsewhere"
     elsewhere.mkdir(parents=True)
-    yield call(ours, "-c", FIRST_RUN, folder=elsewhere)
+    yield _call_in(elsewhere, (ours, "-c", FIRST_RUN), {})
 
 
 def mutants() -> Iterable[bool]:
