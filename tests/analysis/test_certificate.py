@@ -266,3 +266,15 @@ def test_the_papers_conditions_fail_for_its_own_gains() -> None:
     assert {name for name, i in by_name.items() if not i.holds} == {"iota_2", "iota_5", "iota_6"}
     still = {i.name: i.holds for i in umbilical.certify(fixed(0.01)).paper}
     assert [name for name, holds in still.items() if not holds] == ["iota_6"]
+
+
+def test_the_papers_free_number_is_as_large_as_it_may_be() -> None:
+    """iota_4 and iota_5 fall with lambda; with the winch stopped iota_5 is the first to end, at zero."""
+    rights = {i.name: i.right for i in umbilical.certify(fixed(0.01)).paper}
+    assert rights["iota_5"] == pytest.approx(0.0, abs=1e-9 * rights["iota_4"])
+    assert rights["iota_4"] > 0.0
+
+
+def test_every_inequality_is_asked_on_the_cable() -> None:
+    found = umbilical.certify(umbilical.load("paper", {GAIN: 5.0}))
+    assert all(i.x is not None and 0.0 <= i.x <= 500.0 for i in found.inequalities)
