@@ -27,7 +27,7 @@ LOCK = ROOT / "requirements.lock"
 
 
 SUPPORTED = ("3.11", "3.12", "3.13")
-TWO_AT_A_TIME = ("-n", "2", "--dist", "worksteal")
+TWO_AT_A_TIME = ("-n", "2", "--dist", "loadfile")  # tests of a file may follow each other
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 """Small matrices on many threads take ten times longer when the machine is busy."""
 
