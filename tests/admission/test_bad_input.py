@@ -292,7 +292,7 @@ MOTOR: list[Case] = [
     (
         {"faults": [{"kind": "intermittent", "motor": 1, "start": 0.0, "cycle": 1e-9, "duty": 0.5}]},
         "faults.1.cycle",
-        "at least 5e-05 s",
+        "at least 0.001 s, for 100000 switches",
     ),
     ({"ideal_thruster": True, "faults": [{"kind": "dead", "motor": 1, "start": 1.0}]}, "faults.1", "none with ideal"),
     ({"sensors.tip_slope.latency": 1.5e-3}, "sensors.tip_slope.latency", "a multiple of control.period"),

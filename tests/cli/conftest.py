@@ -29,8 +29,9 @@ def _refuse(constant: str) -> NoReturn:
 
 @pytest.fixture
 def umbilical(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Callable[..., Outcome]:
-    """The command line in this process; a slow machine must not put lines of progress into what a test compares."""
+    """The command line in this process, as wide as a pipe: a slow machine and a narrow terminal change no output."""
     monkeypatch.setattr(progress, "PATIENCE_IN_LOGS", inf)
+    monkeypatch.delenv("COLUMNS", raising=False)
 
     def call(*arguments: object) -> Outcome:
         capsys.readouterr()
