@@ -61,9 +61,15 @@ def announce(loop: str = "run_steps") -> None:
     ``logging.getLogger("umbilical").setLevel("ERROR")`` switches it off.
     """
     if not config.DISABLE_JIT and not is_warm(loop) and parent_process() is None:
-        logging.getLogger("umbilical").warning(
-            "compiling the kernels once, which takes half a minute to three minutes; later runs load them from disk"
-        )
+        _say_once()
+
+
+@cache
+def _say_once() -> None:
+    """Without arguments, so that whoever asks first, for whichever loop, has asked for all."""
+    logging.getLogger("umbilical").warning(
+        "compiling the kernels once, which takes half a minute to three minutes; later runs load them from disk"
+    )
 
 
 def _compiled(function: Callable[..., Any], **special: Any) -> Any:

@@ -42,6 +42,8 @@ def test_the_first_compilation_announces_itself_once_and_can_be_silenced(caplog,
     for warm, count in [(True, 0), (False, 1)]:
         monkeypatch.setattr(kernels, "is_warm", lambda *_, warm=warm: warm)
         kernels.announce.cache_clear()
-        for _ in range(2):
+        kernels._say_once.cache_clear()
+        for loop in ("run_steps", "run_held"):
             progress.announce_compilation()
+            kernels.announce(loop)
         assert caplog.text.count("compiling the kernels once") == count

@@ -7,7 +7,7 @@ tension everywhere, for net gravity and its relative jerk are made here.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,20 +19,10 @@ from umbilical.scenario.environment import Environment
 from umbilical.scenario.winch import Winch
 
 
-class Top(NamedTuple):
-    """How cable leaves the sheave, arrays of the shape of the instants asked for.
+class Top(winch.WinchMotion):
+    """How cable leaves the sheave: the winch's motion, and what follows from it for the tension."""
 
-    Attributes:
-        length: cable paid out l, m.
-        speed: v = dl/dt, m/s, positive paying out.
-        acceleration: a = dv/dt, m/s2.
-        jerk: da/dt, m/s3, between the published instants.
-    """
-
-    length: Array
-    speed: Array
-    acceleration: Array
-    jerk: Array
+    __slots__ = ()
 
     def net_gravity(self, gravity: float) -> Array:
         """g less the acceleration at which the cable sinks, m/s2."""
