@@ -14,6 +14,7 @@ from umbilical.admission import (
     timeline,
     weights,
 )
+from umbilical.plant.forces.table import FORCES
 
 CHECKS = (
     timeline.grid_of_time,
@@ -64,4 +65,5 @@ CHECKS = (
     steps.waves_that_leave,
     steps.motors,
     timeline.marks,
+    *(check for force in FORCES for check in force.checks),
 )

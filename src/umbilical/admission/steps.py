@@ -11,6 +11,7 @@ from umbilical.admission.findings import Finding, amount
 from umbilical.admission.motion import sampled_winch
 from umbilical.admission.timeline import MOST_STEPS
 from umbilical.errors import Problem
+from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.relations.instants import count_up
 from umbilical.relations.tension import hanging_of, largest_tension, tension
@@ -79,19 +80,18 @@ def waves(
         )
 
 
-def damping(cable: Cable, payload: Payload, control: Control, grid: Grid) -> Iterator[Finding]:
+def damping(
+    cable: Cable, payload: Payload, environment: Environment, control: Control, grid: Grid
+) -> Iterator[Finding]:
     """Damping is explicit too: within a step it takes less than about half of the speed."""
     step = plant_step(control, grid)
-    for key, coefficient, unit, inertia in (
-        ("cable.damping", cable.damping, "N s/m2", cable.line_density),
-        ("payload.damping", payload.damping, "N s/m", payload.mass),
-    ):
-        limit = _MARGIN * DECAY_LIMIT * inertia / step
-        if coefficient >= limit:
+    for found in decays(cable, payload, environment):
+        limit = _MARGIN * DECAY_LIMIT * found.inertia / step
+        if found.coefficient >= limit:
             yield Problem(
-                key,
-                amount(coefficient, unit),
-                f"below {limit:.6g} {unit} at a step of {step:g} s",
+                found.key,
+                amount(found.coefficient, found.unit),
+                f"below {limit:.6g} {found.unit} at a step of {step:g} s",
                 "within one step it would take more than half of the speed",
                 "a smaller grid.step",
             )

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
-from umbilical.engine.recording import WORKS, Log, Tally, channels, inside, root_mean_square
+from umbilical.engine.recording import Log, Tally, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
 from umbilical.engine.setup import Setup
+from umbilical.plant.forces.table import WORKS
 from umbilical.plant.layout import positions
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario

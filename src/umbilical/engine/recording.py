@@ -13,14 +13,13 @@ from umbilical.engine.stepping import PlantState
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import PRESENT, Ends
 from umbilical.plant.exogenous import Exogenous
+from umbilical.plant.forces.table import AlongWorks, EndWorks, add_up
 from umbilical.plant.layout import integrate, probe, to_nodal
 from umbilical.plant.motors import MotorState
-from umbilical.plant.power import EndWorks
 from umbilical.quantities import CHANNELS
 from umbilical.relations.formulas import motor_constants
 from umbilical.scenario.hardware import Motor
 
-WORKS = tuple(name for name in CHANNELS if name.startswith("work_"))
 STEEPEST = 1.0
 """Beyond this slope the model of small angles has ended, and the run with it."""
 
@@ -31,10 +30,6 @@ class Derived(Frame):
     tip_slope_rate = real()
     thrust = real()
     disturbance = real()
-    work_cable_damping = real()
-    work_cable_load = real()
-    work_tension = real()
-    work_grid = real()
 
 
 class MotorDerived(Frame):
@@ -47,7 +42,7 @@ class Log(NamedTuple):
     """Stored samples: records as they were. The channels of a run are those of their fields that ``CHANNELS`` names.
 
     Attributes:
-        outside, ends, works, outer, derived: shape (samples,).
+        outside, ends, works, along, outer, derived: shape (samples,).
         motors, decisions, motors_derived: shape (samples, motors).
         kappa: shape (samples, motors + 1).
         blocks: slopes and velocities at the nodes, shape (samples, 5, 2 n).
@@ -56,6 +51,7 @@ class Log(NamedTuple):
     outside: Exogenous
     ends: Ends
     works: EndWorks
+    along: AlongWorks
     outer: OuterDecision
     derived: Derived
     motors: MotorState
@@ -126,6 +122,7 @@ def make_log(samples: int, motors: int, elements: int) -> Log:
         Exogenous.many(samples),
         Ends.many(samples),
         EndWorks.many(samples),
+        AlongWorks.many(samples),
         OuterDecision.many(samples),
         Derived.many(samples),
         MotorState.many(samples, motors),
@@ -149,7 +146,7 @@ def make_tally(elements: int, motors: tuple[Motor, ...]) -> Tally:
 
 def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
     """The first ``samples`` stored samples by name, in the order of ``CHANNELS``; fields from vessel to ROV."""
-    kept: list[Any] = [log.outside, log.ends, log.works, log.outer, log.derived]
+    kept: list[Any] = [log.outside, log.ends, log.works, log.along, log.outer, log.derived]
     if driven:
         kept += [log.motors, log.motors["outside"], log.decisions, log.motors_derived]
     named = {name: rows[name][:samples].copy() for rows in kept for name in rows.dtype.names if name in CHANNELS}
@@ -250,6 +247,7 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     log.outside[row] = now.outside
     log.ends[row] = now.ends
     log.works[row] = now.works
+    add_up(state.work, log.along[row])
     log.outer[row] = decision.outer[0]
     store_derived(log.derived[row], state, decision)
     for k in range(state.motors.size):
@@ -271,16 +269,3 @@ def store_derived(out: Derived, state: PlantState, decision: Decision) -> None:
     out.tip_slope_rate = true_slope_rate(state)
     out.thrust = now.thrust
     out.disturbance = now.outside.payload_force + now.thrust - decision.outer[0].thrust_command
-    out.work_cable_damping = total(state.work.cable_damping)
-    out.work_cable_load = total(state.work.cable_load)
-    out.work_tension = total(state.work.tension)
-    out.work_grid = total(state.lost)
-
-
-@kernel
-def total(values: np.ndarray) -> float:
-    """Sum from vessel to ROV."""
-    found = 0.0
-    for e in range(values.size):
-        found += values[e]
-    return found

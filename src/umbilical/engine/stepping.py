@@ -21,12 +21,25 @@ from umbilical.plant.cable import (
     make_cable,
     march,
 )
-from umbilical.plant.exogenous import END, START, Exogenous, Inputs, profiles
+from umbilical.plant.exogenous import END, START, Exogenous, Inputs
+from umbilical.plant.forces import given, tension
+from umbilical.plant.forces.force import add_power
+from umbilical.plant.forces.table import (
+    Along,
+    EndWorks,
+    Forces,
+    along_cable,
+    book_along,
+    book_at_ends,
+    make_along,
+    make_forces,
+    on_payload,
+)
 from umbilical.plant.initial import initial_slopes
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor, make_motors, thrust
 from umbilical.plant.multistep import EXPLICIT, IMPLICIT, KNOWN
-from umbilical.plant.power import Along, EndWorks, add_power, book_along, book_at_ends, make_along, strain_of_elements
 from umbilical.plant.top import vessel_at
+from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.scenario import Scenario
 
 
@@ -65,6 +78,7 @@ class Plant(NamedTuple):
     """
 
     cable: Cable
+    forces: Forces
     motors: MotorParameters
     ideal: bool
     booked: bool
@@ -80,7 +94,6 @@ class PlantState(NamedTuple):
         motors: one record per motor.
         blocks: slopes and velocities, their last rates and their fluxes, shape (5, 5, 2 n), see ``plant/cable.py``.
         faces: flux where elements meet, shape (2, 2 n).
-        losses, lost: power that the grid takes at each interface, W, and its integral, J, shape (n + 1,).
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
         power, work: terms of the power balance along the cable, W, and their integrals, J.
@@ -90,8 +103,6 @@ class PlantState(NamedTuple):
     motors: MotorState
     blocks: np.ndarray
     faces: np.ndarray
-    losses: np.ndarray
-    lost: np.ndarray
     starts: np.ndarray
     loads: np.ndarray
     power: Along
@@ -100,8 +111,8 @@ class PlantState(NamedTuple):
 
 def make_plant(scenario: Scenario, *, booked: bool = True) -> Plant:
     """The true plant of a scenario."""
-    cable, motors = make_cable(scenario, profiles(scenario)), make_motors(scenario.motors)
-    return Plant(cable, motors, scenario.ideal_thruster, booked, EXPLICIT, IMPLICIT)
+    cable, forces, motors = make_cable(scenario), make_forces(scenario), make_motors(scenario.motors)
+    return Plant(cable, forces, motors, scenario.ideal_thruster, booked, EXPLICIT, IMPLICIT)
 
 
 def make_plant_state(scenario: Scenario) -> PlantState:
@@ -112,8 +123,6 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         motors=MotorState.many(n),
         blocks=make_blocks(initial_slopes(scenario)),
         faces=np.zeros((2, 2 * elements)),
-        losses=np.zeros(elements + 1),
-        lost=np.zeros(elements + 1),
         starts=np.zeros(elements + 1),
         loads=np.zeros(loads),
         power=make_along(elements),
@@ -158,8 +167,8 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
     after, length = state.now[0].outside.net_gravity, state.now[0].outside.length
     if after != before and before > 0.0:
-        power, work = state.power.tension, state.work.tension
-        strain_of_elements(plant.cable, state.blocks[PRESENT], power, work, 0.0, length, after, 0.5)
+        cable, power, work = plant.cable, state.power.tension, state.work.tension
+        tension.book(cable.hanging, cable.above, state.blocks[PRESENT], power, work, 0.0, length, after, 0.5)
         add_power(work, power, 1.0 - before / after)
 
 
@@ -175,10 +184,10 @@ def derive(plant: Plant, state: PlantState, half: float) -> None:
     add_up_displacement(x, state.starts, outside.vessel_displacement)
     ends.tip_displacement = state.starts[state.starts.size - 1]
     look_at_ends(cable, x, ends, length, speed, gravity, outside.vessel_velocity)
-    book_at_ends(cable, ends, now.works, half, length, speed, gravity, outside.vessel_velocity)
+    book_at_ends(plant.forces, cable, ends, now.works, half, outside)
     if plant.booked:
-        jerk, last = outside.relative_jerk, now.last_relative_jerk
-        book_along(cable, x, state.power, state.work, half, length, gravity, jerk, last, state.loads)
+        last = now.last_relative_jerk
+        book_along(plant.forces, cable, x, state.power, state.work, half, outside, last, state.loads)
     now.last_relative_jerk = outside.relative_jerk
 
 
@@ -196,9 +205,12 @@ def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
     cable, blocks, now = plant.cable, state.blocks, state.now[0]
     outside, ends, w = now.outside, now.ends, now.rate_weights
     length, speed, gravity, vessel = outside.length, outside.payout_speed, outside.net_gravity, outside.vessel_velocity
-    evaluate(cable, blocks, state.faces, state.losses, ends, newest, length, speed, gravity, vessel, state.loads)
+    evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, length, speed, gravity, vessel)
+    along_cable(plant.forces, cable, blocks[RATES + newest], state.loads)
+    pull = tension_at(0.0, gravity, cable.hanging) * ends.tip_slope
+    ends.tip_rates[newest] = (on_payload(plant.forces, ends) - pull) / cable.payload_mass
     old, older = (newest + 2) % 3, (newest + 1) % 3
-    loss = speed / length + cable.damping / cable.line_density
+    loss = speed / length + plant.forces.cable_decay
     march(blocks[PRESENT], blocks[RATES + newest], blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)
     ends.tip_velocity += w[0] * ends.tip_rates[newest] + w[1] * ends.tip_rates[old] + w[2] * ends.tip_rates[older]
 
@@ -225,7 +237,7 @@ def advance_cable(plant: Plant, state: PlantState, dt: float) -> None:
     weigh_rates(now, dt * w[0], dt * w[1], dt * w[2])
     march_cable(plant, state, (now.newest_rate + 1) % 3)
     if plant.booked:
-        add_power(state.lost, state.losses, dt)
+        add_power(state.work.grid, state.power.grid, dt)
 
 
 @glue
@@ -236,8 +248,8 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
     """
     start, average, before = now.start, now.average, now.before
     w = plant.implicit[min(now.known_rates, 1)]
-    average.thrust = w[0] * now.thrust + w[1] * start.thrust + w[2] * before.thrust
-    average.payload_force = w[0] * now.outside.payload_force + w[1] * start.payload_force + w[2] * before.payload_force
+    average.thrust = given.mean(w, now.thrust, start.thrust, before.thrust)
+    average.payload_force = given.mean(w, now.outside.payload_force, start.payload_force, before.payload_force)
     if plant.ideal:
         average.thrust = start.thrust
     now.before = start

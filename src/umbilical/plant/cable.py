@@ -27,7 +27,7 @@ import numpy as np
 
 from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, real, vector
-from umbilical.plant.elements import DERIVATIVE, WEIGHTS
+from umbilical.plant.elements import DERIVATIVE, W0, W1, W2
 from umbilical.plant.layout import positions, to_elements
 from umbilical.relations.tension import Hanging, hanging_of, tension, tension_gain
 from umbilical.scenario.scenario import Scenario
@@ -38,7 +38,6 @@ from umbilical.scenario.scenario import Scenario
 D0_EVEN, D1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in DERIVATIVE[:2])
 D0_ODD, D1_ODD, D2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in DERIVATIVE[:3])
 TIP_ROW = tuple(float(d) for d in DERIVATIVE[4])
-W0, W1, W2 = (float(w) for w in WEIGHTS[:3])
 LIFT = 1.0 / W0
 
 # Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants, their fluxes.
@@ -62,33 +61,26 @@ class Cable(NamedTuple):
 
     line_density: float
     hanging: Hanging
-    damping: float
     payload_mass: float
-    payload_damping: float
     above: np.ndarray
     """A = 1 - sigma at the nodes, shape (5, n): distance from the ROV over l."""
     above_faces: np.ndarray
     """A at the interfaces, vessel and ROV included, shape (n + 1,)."""
     moving: np.ndarray
     """1 at the velocities of a block, 0 at its slopes, shape (5, 2 n): what damping acts on."""
-    profiles: np.ndarray
-    """Profiles of the loads along the cable, shape (loads, 5, n)."""
 
 
-def make_cable(scenario: Scenario, profiles: np.ndarray) -> Cable:
-    """Constants of a scenario's cable; ``profiles`` is (loads, 4 n + 1), ordered from vessel to ROV."""
+def make_cable(scenario: Scenario) -> Cable:
+    """Constants of a scenario's cable."""
     elements = scenario.grid.elements
     above = 1.0 - positions(elements)
     return Cable(
         line_density=scenario.cable.line_density,
         hanging=hanging_of(scenario.cable, scenario.payload, scenario.environment),
-        damping=scenario.cable.damping,
         payload_mass=scenario.payload.mass,
-        payload_damping=scenario.payload.damping,
         above=np.ascontiguousarray(to_elements(above)),
         above_faces=np.ascontiguousarray(above[::4]),
         moving=np.tile(np.repeat([0.0, 1.0], elements), (5, 1)),
-        profiles=np.ascontiguousarray(to_elements(profiles)),
     )
 
 
@@ -211,17 +203,6 @@ def differentiate(f: np.ndarray, faces: np.ndarray, out: np.ndarray) -> None:
 
 
 @kernel
-def add_loads(cable: Cable, rate: np.ndarray, loads: np.ndarray) -> None:
-    """Add the loads along the cable, N/m per profile, to the rates of a block."""
-    n = rate.shape[1] // 2
-    for k in range(loads.size):
-        amount = loads[k] / cable.line_density
-        for j in range(5):
-            for e in range(n):
-                rate[j, n + e] += amount * cable.profiles[k, j, e]
-
-
-@kernel
 def march(
     x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, moving: np.ndarray, loss: float,
     weights: np.ndarray,
@@ -247,21 +228,13 @@ def evaluate(
     speed: float,
     net_gravity: float,
     vessel: float,
-    loads: np.ndarray,
 ) -> None:
-    """Rates at the present instant, but for the loss of the velocities, into block and place ``slot`` (0 to 2).
-
-    The rate of the ROV is that of everything but the thrust and the force on it.
-    """
+    """Rates of the free cable at the present instant into block ``slot`` (0 to 2); forces are added to them."""
     x, rate = blocks[PRESENT], blocks[RATES + slot]
     meet(cable, x, faces, losses, length, speed, net_gravity)
     meet_ends(cable, x, faces, losses, ends, length, speed, net_gravity, vessel)
     flux(cable, x, blocks[FLUX], length, speed, net_gravity)
     differentiate(blocks[FLUX], faces, rate)
-    if loads.size > 0:
-        add_loads(cable, rate, loads)
-    pull = tension(0.0, net_gravity, cable.hanging) * ends.tip_slope
-    ends.tip_rates[slot] = -(pull + cable.payload_damping * ends.tip_velocity) / cable.payload_mass
 
 
 @kernel

@@ -38,6 +38,7 @@ def _integral() -> np.ndarray:
 
 DERIVATIVE = _derivative()
 INTEGRAL = _integral()
+W0, W1, W2 = (float(w) for w in WEIGHTS[:3])
 
 
 def upwind_spectrum(phases: int = 720) -> np.ndarray:

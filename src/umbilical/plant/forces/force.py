@@ -1,0 +1,78 @@
+"""What the table knows of a force, and what all forces along the cable share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.scenario.findings import Finding
+from umbilical.scenario.scenario import Scenario
+
+
+class OperatingPoint(NamedTuple):
+    """Where a force is linearised: at rest, with the winch stopped.
+
+    Attributes:
+        length: cable paid out, m.
+        slope: y_x at the nodes from vessel to ROV, shape (4 n + 1,).
+        water: speed of the water past the cable at rest, m/s, shape (4 n + 1,); the last is what passes the ROV.
+    """
+
+    length: float
+    slope: np.ndarray
+    water: np.ndarray
+
+
+class Decay(NamedTuple):
+    """How fast a force takes velocity at most, for the step limit.
+
+    Attributes:
+        key: of the scenario, that a user turns.
+        coefficient: N s/m2 per metre of cable, or N s/m on the ROV.
+        unit: of the coefficient.
+        inertia: what it slows, kg/m or kg.
+    """
+
+    key: str
+    coefficient: float
+    unit: str
+    inertia: float
+
+
+def no_decay(**_: Any) -> None:
+    """A force that takes no velocity."""
+    return
+
+
+def no_damping(scenario: Scenario, at: OperatingPoint) -> float:
+    """A force that does not change with the velocity."""
+    return 0.0
+
+
+class Force(NamedTuple):
+    """What the table knows of a force beside its kernels.
+
+    Attributes:
+        work: channel of its work.
+        on: "cable" or "payload".
+        damping: minus its derivative by the velocity at an operating point: N s/m2 at the nodes of the cable, shape
+            (4 n + 1,) or a number; N s/m on the ROV.
+        decay: the most it takes, from sections of a scenario by name; None where it takes nothing.
+        checks: across the fields of its record; parameters name the sections they read.
+    """
+
+    work: str
+    on: str = "cable"
+    damping: Callable[[Scenario, OperatingPoint], Any] = no_damping
+    decay: Callable[..., Decay | None] = no_decay
+    checks: tuple[Callable[..., Iterator[Finding]], ...] = ()
+
+
+@kernel
+def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
+    """work += power * time, along a row."""
+    for k in range(work.size):
+        work[k] += time * power[k]
