@@ -6,19 +6,28 @@ silently run the old code. Here the cache lives in a folder named by a hash of e
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import logging
 import platform
 from collections.abc import Callable
-from functools import cache
+from functools import cache, update_wrapper
 from multiprocessing import parent_process
 from pathlib import Path
 from typing import Any
 
 import llvmlite
+import llvmlite.binding
 import numba
 import numpy
 from numba.core import config as numba_config
+from numba.core import types
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler_machinery import FunctionPass, register_pass
+from numba.core.imputils import lower_constant
+from numba.core.typed_passes import NopythonTypeInference
+from numba.extending import models, register_jitable, register_model
 
 from umbilical.kernel_cache import folder_for, is_whole, seal
 
@@ -72,25 +81,141 @@ def _say_once() -> None:
     )
 
 
-def _compiled(function: Callable[..., Any], **special: Any) -> Any:
+class _Whole(JITCodeLibrary):
+    """The code of a kernel with that of all kernels it calls: optimised once, as a whole.
+
+    numba optimises every function by itself and the whole twice. Loops are vectorised and not unrolled, which takes
+    half the time to compile and none to run.
+    """
+
+    def _optimize_functions(self, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+
+    def _optimize_final_module(self) -> None:
+        options = llvmlite.binding.create_pipeline_tuning_options(speed_level=config.OPT)
+        options.loop_vectorization, options.loop_unrolling = bool(config.LOOP_VECTORIZE), False
+        passes = llvmlite.binding.create_pass_builder(self._codegen._tm, options)
+        passes.getModulePassManager().run(self._final_module, passes)
+
+
+class _Part(_Whole):
+    """The code of a kernel for those that call it: shortened, and no machine code, since theirs will hold it."""
+
+    codegen = property(lambda self: self)
+
+    def set_env(self, name: str, environment: object) -> None:
+        """Nothing: what numba would keep for Python objects has no place in a kernel."""
+
+    def get_pointer_to_function(self, name: str) -> int:
+        return 0
+
+    def _optimize_final_module(self) -> None:
+        """Only what makes it shorter, so that its callers have less to take in."""
+        passes = llvmlite.binding.create_pass_builder(
+            self._codegen._tm, llvmlite.binding.create_pipeline_tuning_options(speed_level=1)
+        )
+        simplify = passes.getFunctionPassManager()
+        for function in self._final_module.functions:
+            if not function.is_declaration:
+                simplify.run(function, passes)
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+    def serialize_using_object_code(self) -> Any:
+        return self.serialize_using_bitcode()
+
+
+class _Compiler(CompilerBase):
+    """numba's own pipeline with another library for the code; no collection of garbage meanwhile, a tenth of it."""
+
+    library: type[JITCodeLibrary] = _Whole
+
+    def define_pipelines(self) -> list[Any]:
+        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        passes.add_pass_after(_ChooseLibrary, NopythonTypeInference)
+        passes.finalize()
+        self.state.metadata["library"] = self.library
+        return [passes]
+
+    def compile_extra(self, func: Any) -> Any:
+        enabled = gc.isenabled()
+        gc.disable()
+        try:
+            return super().compile_extra(func)
+        finally:
+            if enabled:
+                gc.enable()
+
+
+class _PartCompiler(_Compiler):
+    library = _Part
+
+
+@register_pass(mutates_CFG=False, analysis_only=False)
+class _ChooseLibrary(FunctionPass):
+    """Where the code goes, before it is written."""
+
+    _name = "umbilical_library"
+
+    def __init__(self) -> None:
+        FunctionPass.__init__(self)
+
+    def run_pass(self, state: Any) -> bool:
+        library = state.metadata.pop("library")
+        state.library = library(state.targetctx.codegen(), state.func_id.func_qualname)
+        state.library.enable_object_caching()
+        return False
+
+
+class _KernelType(types.Dispatcher):
+    """A kernel as those that call it see it: by name; numba's own type also carries an address, which no file keeps."""
+
+
+register_model(_KernelType)(models.OpaqueModel)
+
+
+@lower_constant(_KernelType)
+def _no_address(context: Any, builder: Any, kind: Any, kernel: Any) -> Any:
+    return context.get_dummy_value()
+
+
+class Kernel:
+    """A kernel that others take in; called from Python it is compiled once more, as a function of its own."""
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        update_wrapper(self, function)
+        self.py_func = function
+        self._entry = entry_kernel(function)
+        self._part = _compiled(function, "parts", _PartCompiler, forceinline=True, no_cpython_wrapper=True)
+        self._numba_type_ = _KernelType(self._part)  # which does not keep it
+
+    def __call__(self, *arguments: Any) -> Any:
+        return self._entry(*arguments)
+
+
+_COMMON = {"error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": False}
+
+
+def _compiled(function: Callable[..., Any], folder: str, compiler: type[_Compiler], **special: Any) -> Any:
     njit: Any = numba.njit  # its last options are not in its annotations
-    before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder())
+    before, config.CACHE_DIR = config.CACHE_DIR, str(cache_folder() / folder)
     try:
-        common = {"cache": True, "nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": False}
-        return seal(njit(**common, **special)(function))
+        return seal(njit(pipeline_class=compiler, cache=True, nogil=True, **_COMMON, **special)(function))
     finally:
         config.CACHE_DIR = before
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """A compiled function whose machine code is taken into every kernel that calls it.
+    """A compiled function whose code is taken into every kernel that calls it.
 
     Compiled when first called, kept on disk, and without the GIL while it runs. No fast-math: results must
     not depend on the compiler's mood. Division by zero gives inf or NaN, which the engine looks for, instead
     of raising inside a loop. Without numba's reference counting (three times the cost of the arithmetic), so
     a kernel that allocates does not compile.
     """
-    return _compiled(function, forceinline=True)
+    return function if config.DISABLE_JIT else Kernel(function)
 
 
 def glue(function: Callable[..., Any]) -> Any:
@@ -98,9 +223,19 @@ def glue(function: Callable[..., Any]) -> Any:
 
     Many large arguments then are neither passed nor compiled for once more on every floor.
     """
-    return _compiled(function, inline="always")
+    return _compiled(function, "", _Compiler, inline="always")
+
+
+def formula(function: Callable[..., Any]) -> Any:
+    """A plain function, of floats or arrays, whose code is also taken into the kernels that call it."""
+    return register_jitable(pipeline_class=_PartCompiler, forceinline=True, **_COMMON)(function)
+
+
+def plain(kernel: Any) -> Callable[..., Any]:
+    """A kernel as the Python function it was, for what is not worth compiling by itself."""
+    return getattr(kernel, "py_func", kernel)
 
 
 def entry_kernel(function: Callable[..., Any]) -> Any:
     """A kernel that stays a function of its own: what Python calls, and what kernels call rarely."""
-    return _compiled(function)
+    return _compiled(function, "", _Compiler)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import entry_kernel, glue
+from umbilical.compile import entry_kernel, glue, plain
 from umbilical.control.contract import MotorDecision
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import (
@@ -130,7 +130,7 @@ def make_plant_state(scenario: Scenario) -> PlantState:
     )
     now = state.now[0]
     now.outside.vessel_displacement = float(vessel_at(scenario.environment, 0.0)[0])
-    add_up_displacement(state.blocks[PRESENT], state.starts, now.outside.vessel_displacement)
+    plain(add_up_displacement)(state.blocks[PRESENT], state.starts, now.outside.vessel_displacement)
     now.ends.tip_displacement = state.starts[elements]
     return state
 

@@ -8,18 +8,17 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
-from numba.extending import register_jitable
-
+from umbilical.compile import formula
 from umbilical.frames import Frame, real
 
 
-@register_jitable
+@formula
 def signed_square(speed: float) -> float:
     """|w| w, rad2/s2: what a propeller turns into thrust and load torque (8), (15)."""
     return abs(speed) * speed
 
 
-@register_jitable
+@formula
 def soft_signed_root(demand: float, width: float) -> float:
     """sgn(U) sqrt|U| made smooth at 0: U / (U^2 + s^2)^(1/4), rad/s for U in rad2/s2."""
     return demand / sqrt(sqrt(demand * demand + width * width))

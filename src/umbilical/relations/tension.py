@@ -18,7 +18,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import register_jitable
+
+from umbilical.compile import formula
 
 Real = Any  # a float inside kernels; a float, an array or an interval outside
 
@@ -57,31 +58,31 @@ def hanging_of(cable: Any, payload: Any, environment: Any) -> Hanging:
     return hanging(payload.mass, cable.line_density, environment.gravity, payload.wet_weight, cable.wet_line_density)
 
 
-@register_jitable
+@formula
 def net_gravity(gravity: Real, acceleration: Real = 0.0) -> Real:
     """g - a, m/s2: what a mass on a cable that sinks with the acceleration ``a`` still weighs per kilogram, in air."""
     return gravity - acceleration
 
 
-@register_jitable
+@formula
 def relative_jerk(jerk: Real, net: Real) -> Real:
     """a'/(g - a), 1/s: DT/Dt is minus this times :func:`inertial_tension`."""
     return jerk / net
 
 
-@register_jitable
+@formula
 def inertial_tension(distance: Real, net: Real, hung: Hanging) -> Real:
     """(m + rho s) (g - a), N: the tension in air, and the part of T that follows the acceleration."""
     return (hung.mass + hung.line_density * distance) * net
 
 
-@register_jitable
+@formula
 def carried(distance: Real, hung: Hanging) -> Real:
     """B + b s, N: what the water carries of the cable below a point and of the ROV."""
     return hung.buoyancy + hung.line_buoyancy * distance
 
 
-@register_jitable
+@formula
 def tension(distance: Real, net: Real, hung: Hanging) -> Real:
     """T at the distance s = l - x from the ROV, N; ``net`` is :func:`net_gravity`.
 
@@ -91,7 +92,7 @@ def tension(distance: Real, net: Real, hung: Hanging) -> Real:
     return inertial_tension(distance, net, hung) - carried(distance, hung)
 
 
-@register_jitable
+@formula
 def tension_gain(distance: Real, net: Real, hung: Hanging) -> Real:
     """T(s) - T(0) = (rho (g - a) - b) s, N; for s = 1 the slope of the tension, N/m."""
     return hung.line_density * distance * net - hung.line_buoyancy * distance
