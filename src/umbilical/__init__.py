@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from umbilical.design.margins import margins
     from umbilical.engine.episode import Episode
     from umbilical.engine.simulate import simulate
+    from umbilical.interop.c_code import to_c
+    from umbilical.interop.fmu import to_fmu
     from umbilical.interop.python_control import to_control
     from umbilical.plots import (
         plot_cable,
@@ -85,7 +87,9 @@ _HOMES = {
     "preset_names": "umbilical.admission",
     "simulate": "umbilical.engine.simulate",
     "sweep": "umbilical.studies.sweep",
+    "to_c": "umbilical.interop.c_code",
     "to_control": "umbilical.interop.python_control",
+    "to_fmu": "umbilical.interop.fmu",
     "tune": "umbilical.studies.tune",
 }
 
@@ -125,7 +129,9 @@ __all__ = [
     "preset_names",
     "simulate",
     "sweep",
+    "to_c",
     "to_control",
+    "to_fmu",
     "tune",
 ]
 

@@ -46,7 +46,9 @@ NAMES = {
     "preset_names",
     "simulate",
     "sweep",
+    "to_c",
     "to_control",
+    "to_fmu",
     "tune",
 }
 

@@ -1,13 +1,13 @@
-"""``umbilical show``, ``compare`` and ``export``: what is read from scenarios and results."""
+"""``umbilical show`` and ``compare``: what is read from scenarios and results."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.options import Force, Json
+from umbilical.cli.options import Json
 from umbilical.cli.speech import run_document, say, say_json, shown_unit, table
 
 if TYPE_CHECKING:
@@ -156,22 +156,3 @@ def _value_and_ratio(value: float | None, first: float | None) -> tuple[str, str
     if value is None:
         return "-", "-"
     return f"{value:.6g}", f"{value / first:.4g}" if first else "-"
-
-
-def export(
-    file: Annotated[Path, Argument(help="A .nc result.")],
-    to: Annotated[Literal["csv", "mat"], Option("--to", help="csv: channels over time; mat: every array, for MATLAB.")],
-    out: Annotated[Path | None, Option("--out", metavar="FILE", help="Beside the result if left out.")] = None,
-    force: Force = False,
-) -> None:
-    """Write a result for other tools.
-
-    \b
-    examples
-      umbilical export paper.nc --to csv
-      umbilical export paper.nc --to mat --out for_matlab.mat
-    """
-    from umbilical.run import open_run
-
-    written = open_run(file).export(out or file.with_suffix(f".{to}"), to, force=force)
-    say(f"export: {written}")
