@@ -78,10 +78,12 @@ def initialiser(value: Any, used: Collection[str], indent: str = "") -> str:
         named = [(name, getattr(value, name)) for name in tuple_fields(value, used)]
     elif isinstance(value, np.void):
         named = [(name, value[name]) for name in value.dtype.names or () if name in used]
-    elif isinstance(value, tuple | np.ndarray):
-        entries = value if len(value) else [np.zeros(1, value.dtype)[0]]  # C has no array of length 0
+    elif isinstance(value, tuple):
+        return _row([initialiser(entry, used, deeper) for entry in value])
+    elif isinstance(value, np.ndarray):
+        entries = value if value.size else [np.zeros(1, value.dtype)[0]]  # C has no array of length 0
         parts = [initialiser(entry, used, deeper) for entry in entries]
-        rows = isinstance(value, np.ndarray) and (value.ndim > 1 or value.dtype.names)
+        rows = value.ndim > 1 or value.dtype.names
         return "{\n" + "".join(f"{deeper}{part},\n" for part in parts) + indent + "}" if rows else _row(parts)
     else:
         return literal(value)
