@@ -60,6 +60,15 @@ def as_array(records: Frame) -> np.ndarray:
     return records.view(np.float64).reshape(*records.shape, width)  # pyright: ignore[reportAttributeAccessIssue]
 
 
+def leaves(frame: type[Frame]) -> Iterator[tuple[str, Any]]:
+    """Name and type of every number of a frame, those of its parts as ``part.name``; each takes eight bytes."""
+    for name, field in frame.fields.items():
+        if field.frame is None:
+            yield name, field.dtype
+        else:
+            yield from ((f"{name}.{inner}", dtype) for inner, dtype in leaves(field.frame))
+
+
 class Frame:
     """Base of all frames, aligned as a C compiler aligns a struct.
 

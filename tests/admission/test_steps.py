@@ -7,7 +7,7 @@ import pytest
 
 from umbilical.admission import load
 from umbilical.admission.steps import chosen_step, fastest_pole, plant_step, reachable_speed
-from umbilical.engine.linear import linearise
+from umbilical.engine.linear import linearise_plant
 from umbilical.errors import ScenarioError
 from umbilical.plant.multistep import DECAY_LIMIT, amplification, courant_limit
 from umbilical.scenario.hardware import Motor
@@ -37,7 +37,7 @@ def test_the_waves_shorten_the_step(elements: int) -> None:
 def test_the_cable_is_stable_at_the_limit_and_grows_at_twice_of_it() -> None:
     """The whole cable with its ROV, not the uniform one that the limit is computed for."""
     scenario = load("crosscheck-none", {"grid.elements": 8})
-    product = np.linalg.eigvals(linearise(scenario).rates.toarray())
+    product = np.linalg.eigvals(linearise_plant(scenario).a.toarray())
     limit = 0.9 * courant_limit() * 500.0 / 8 / np.sqrt(1500.0 * 10.0 / 2.0)
     assert amplification(limit * product).max() < 1.0 + 1e-9
     assert amplification(2.0 * limit * product).max() > 1.1

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.controller import root_slope
+from umbilical.analysis.laws import root_slope
 from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.design import rounds
 from umbilical.design.design import _missing

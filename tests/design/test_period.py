@@ -14,6 +14,7 @@ from umbilical.analysis.margins import judge
 from umbilical.analysis.nyquist import Stability, stability, sweep
 from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.cli.judging import conclusion
+from umbilical.control.cascade import Cascade
 from umbilical.design.grid import Difference, GridJudgement, check_count, judge_grid, on_grid, resolved, with_grid_echo
 from umbilical.design.margins import margins as report
 from umbilical.design.matrix import Counted, MatrixCheck, unstable_eigenvalues
@@ -148,13 +149,27 @@ def test_the_finest_grid_must_agree_and_the_next_be_near():
     assert not resolved(at[1:3])
 
 
-def test_margins_of_a_controller_in_python_say_what_is_supported():
-    class Law:
-        period = 1e-3
-
-    for wrong in (Law(), "long"):
-        with pytest.raises(ScenarioError, match="a controller written in Python has none"):
+def test_a_controller_in_the_place_of_lengths_is_told_where_it_goes():
+    for wrong in (Cascade(umbilical.load("ringdown")), "long"):
+        with pytest.raises(ScenarioError, match="goes in as controller="):
             report(umbilical.load("ringdown"), wrong)  # pyright: ignore[reportArgumentType]
+
+
+def test_margins_of_a_controller_in_python_are_those_of_the_same_law_built_in():
+    scenario = umbilical.load("ringdown", {"ideal_thruster": True})
+    own, built_in = report(scenario, controller=Cascade(scenario)), report(scenario)
+    assert own.controller == "Cascade"
+    one, other = own.judgements[0].margins, built_in.judgements[0].margins
+    assert one is not None
+    assert other is not None
+    assert one.gain_high.size == pytest.approx(other.gain_high.size, rel=1e-6)
+    assert one.delay.size == pytest.approx(other.delay.size, rel=1e-6)
+
+
+def test_a_controller_that_its_linearisation_does_not_speak_for_is_unresolved():
+    found = report(umbilical.load("ringdown"), controller=Cascade(umbilical.load("ringdown")))
+    assert (found.stable, found.resolved, found.judgements) == (False, False, ())
+    assert "voltages itself" in found.doubt
 
 
 def test_progress_is_told_after_every_part():

@@ -7,7 +7,8 @@ import pytest
 
 import umbilical
 from tests.support.scenarios import constant, open_loop, sine
-from umbilical.engine.linear import linearise, step_matrix, step_poles
+from umbilical.engine import linear as module
+from umbilical.engine.linear import linearise_plant, step_matrix, step_poles
 from umbilical.engine.loop import World, advance_period
 from umbilical.engine.schedule import stretch
 from umbilical.engine.sensing import read_truth
@@ -27,7 +28,7 @@ def test_its_powers_are_a_run() -> None:
         winch__length=100.0, grid__elements=4, initial=start, duration=0.05, output__interval=1e-3, cable__damping=0.3,
         payload__damping=20.0,
     )  # fmt: skip
-    matrix, linear = step_matrix(scenario), linearise(scenario)
+    matrix, linear = step_matrix(scenario), linearise_plant(scenario)
     setup = set_up(scenario)
     inputs = Outside(scenario).sample(stretch(setup.clock, 0, 50).steps)
     enter_step(setup.world.plant, setup.world.state, inputs, 0)
@@ -35,7 +36,7 @@ def test_its_powers_are_a_run() -> None:
     for k in range(50):
         advance_period(setup.world, inputs, k, k + 1)
         states.append(state_of(setup.world))
-    augmented = np.concatenate([states[3], linear.rates @ states[2], linear.rates @ states[1]])
+    augmented = np.concatenate([states[3], linear.a @ states[2], linear.a @ states[1]])
     for k in range(4, 51):
         augmented = matrix @ augmented
         np.testing.assert_allclose(augmented[: states[k].size], states[k], atol=1e-11 * np.abs(states[k]).max())
@@ -55,7 +56,7 @@ def test_samples_are_what_the_sensors_read() -> None:
     inputs = Outside(scenario).sample(Steps(np.zeros(1), np.full(1, 1e-3), np.zeros(0)))
     enter_step(world.plant, world.state, inputs, 0)
     read_truth(world.state, world.readings)
-    found = linearise(scenario).samples @ state_of(world)
+    found = linearise_plant(scenario).c @ state_of(world)
     np.testing.assert_allclose(found, numbers(world.readings.tip[0]), rtol=1e-11, atol=1e-14)
 
 
@@ -69,14 +70,14 @@ def test_poles_are_those_of_the_step_matrix() -> None:
 def test_a_held_force_in_terms_of_the_shift() -> None:
     """The formula of :class:`Linear`: a force ``z^k`` held for each step, found again in a run of the matrix."""
     scenario = open_loop(winch__length=100.0, grid__elements=4, cable__damping=0.3)
-    linear, z = linearise(scenario), np.exp(0.03j)
-    one = np.eye(linear.push.size)
-    rates = linear.rates.toarray()
+    linear, z = linearise_plant(scenario), np.exp(0.03j)
+    one = np.eye(linear.a.shape[0])
+    rates = linear.a.toarray()
     system = (z - 1.0) * one - linear.step * (23.0 - 16.0 / z + 5.0 / z**2) / 12.0 * rates
-    x = np.linalg.solve(system, linear.step * linear.push)
+    x = np.linalg.solve(system, linear.step * linear.b[:, 0])
     forced = np.concatenate([x, rates @ x / z, rates @ x / z**2])
     pushed = step_matrix(scenario) @ forced
-    pushed[: x.size] += linear.step * linear.push
+    pushed[: x.size] += linear.step * linear.b[:, 0]
     np.testing.assert_allclose(pushed[: x.size], z * x, rtol=1e-9)
 
 
@@ -97,3 +98,23 @@ def test_the_winch_stops_where_it_is_asked_to() -> None:
     fixed = step_matrix(scenario.replace({"winch": {"law": "constant", "length": 500.0}}))
     np.testing.assert_allclose(at_end, fixed, rtol=1e-12, atol=1e-15)
     assert np.abs(at_end - step_matrix(scenario, 0.0)).max() > 1e-9
+
+
+@pytest.mark.parametrize("current", [0.0, 0.4])
+def test_a_quadratic_drag_counts_with_its_slope(monkeypatch: pytest.MonkeyPatch, current: float) -> None:
+    """Rates of ``-k |v - c| (v - c)`` on every node: nothing at rest in still water, ``-2 k |c|`` in a current c."""
+    k, scenario = 3.0, open_loop(winch__length=100.0, grid__elements=4, cable__damping=0.3)
+    plain = linearise_plant(scenario).a.toarray()
+    find_rates = module.find_rates
+
+    def dragged(plant, state) -> None:
+        find_rates(plant, state)
+        half = state.blocks.shape[2] // 2
+        velocity = state.blocks[PRESENT, :, half:] - current
+        state.blocks[module.RATES, :, half:] -= k * np.abs(velocity) * velocity
+
+    monkeypatch.setattr(module, "find_rates", dragged)
+    change = linearise_plant(scenario).a.toarray() - plain
+    velocities = np.zeros(change.shape[0])
+    velocities[:-1].reshape(5, -1)[:, 4:] = 1.0
+    np.testing.assert_allclose(change, np.diag(-2.0 * k * abs(current) * velocities), atol=1e-4 * k)

@@ -131,7 +131,7 @@ from umbilical.analysis.certificate.lyapunov import cable_function, cable_rates
 from umbilical.analysis.certificate.records import Weights
 from umbilical.analysis.margins import judge
 from umbilical.design.grid import on_grid
-from umbilical.engine.linear import linearise
+from umbilical.engine.linear import linearise_plant
 from umbilical.plant.initial import initial_slopes
 from umbilical.relations.tension import hanging_of, net_gravity
 from umbilical.reproduce.lyapunov import lyapunov
@@ -177,7 +177,7 @@ answers = {
                                      **common | {"cable": heavy.cable}),
     "check: grid near the ROV": found(grid_near_the_payload, duration=1.0, control=s.control, winch=s.winch,
                                       grid=s.grid, **common),
-    "linearisation": numbers(linearise(still).rates.data),
+    "linearisation": numbers(linearise_plant(still).a.data),
     "margins": numbers([(j := judge(still, 400.0)).margins.gain_high.size, j.margins.phase.size]),
     "step of the design's grids": [on_grid(s, 500.0, 2000).grid.step],
     "V along a run": numbers(cable_function(s, read, weights)),

@@ -16,11 +16,10 @@ import numpy as np
 from umbilical.analysis.impedance import HangingCable, hanging_cable
 from umbilical.analysis.limits import Margins, margins
 from umbilical.analysis.nyquist import Stability, Sweep, near_poles, stability, sweep
-from umbilical.analysis.sampled import SampledLoop, has_loop, loop_response, sampled_loop
+from umbilical.analysis.sampled import SampledLoop, loop_response, sampled_loop
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import signals
 from umbilical.plant.top import top_at
-from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
 MODES = 5
@@ -146,35 +145,18 @@ def usual_lengths(scenario: Scenario) -> tuple[float, ...]:
 
 
 def check(scenario: Scenario) -> None:
-    """Refuse what has no margins.
+    """Refuse a law of the scenario's own that has no margins.
 
     Raises:
         ScenarioError: no controller, or rates of the slope that an ideal thruster makes jump at every sample.
     """
     law = scenario.control.law
-    if not has_loop(scenario):
-        raise ScenarioError(
-            [
-                Problem(
-                    "control.law.kind",
-                    "none",
-                    "a law that closes a loop",
-                    "margins say what a loop survives",
-                    "kind = 'boundary' or 'pd'",
-                )
-            ],
-            scenario.name,
-        )
-    if scenario.ideal_thruster and isinstance(law, BoundaryLaw) and law.rates == "sensor":
-        raise ScenarioError(
-            [
-                Problem(
-                    "control.law.rates",
-                    "sensor",
-                    "observer, or motors in the loop",
-                    "with an ideal thruster the rate of the slope jumps at every sample, which has no linear response",
-                    "rates = 'observer', or ideal_thruster = false",
-                )
-            ],
-            scenario.name,
-        )
+    if not law.closes_loop:
+        wanted, reason = "a law that closes a loop", "margins say what a loop survives"
+        problem = Problem("control.law.kind", law.kind, wanted, reason, "kind = 'boundary' or 'pd'")
+        raise ScenarioError([problem], scenario.name)
+    if scenario.ideal_thruster and law.reads_rates and law.boundary_gains:
+        reason = "with an ideal thruster the rate of the slope jumps at every sample, which has no linear response"
+        cure = "rates = 'observer', or ideal_thruster = false"
+        problem = Problem("control.law.rates", "sensor", "observer, or motors in the loop", reason, cure)
+        raise ScenarioError([problem], scenario.name)

@@ -18,10 +18,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.controller import READINGS, motor_law, outer_law, shares
-from umbilical.analysis.discrete import Discrete, delayed, held
 from umbilical.analysis.impedance import HangingCable, Waves, payload_stiffness, upward_asymptote, waves
-from umbilical.control.cascade import NONE, CascadeSettings, make_settings, make_state
+from umbilical.analysis.laws import READINGS, motor_law, outer_law, shares
+from umbilical.analysis.linear import Linear, delayed, held
+from umbilical.analysis.updates import Rest, linearise_controller
+from umbilical.control.cascade import CascadeSettings, make_settings, make_state, with_known_factors
+from umbilical.control.contract import Controller, Measurement
 from umbilical.relations.formulas import soft_signed_root
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.scenario import Scenario
@@ -46,13 +48,13 @@ class Drive:
         share: size of the demand on one motor per commanded thrust, rad2/(N s2).
     """
 
-    law: Discrete
+    law: Linear
     rates: np.ndarray
     volts: np.ndarray
     weight: float
     share: float
 
-    def closed(self, period: float) -> Discrete:
+    def closed(self, period: float) -> Linear:
         """From (demand, errors of w and of i) to (voltage, w), the loop closed; states are the law's, then w and i."""
         a, b = held(self.rates, self.volts, period)
         k, seen, n = self.law, slice(1, 3), self.law.a.shape[0]
@@ -61,7 +63,7 @@ class Drive:
         entry = np.vstack([k.b, b @ k.d])
         voltage = np.hstack([k.c, k.d[:, seen]])
         speed = np.eye(n + 2)[[n]]
-        return Discrete(np.vstack([upper, lower]), entry, np.vstack([voltage, speed]), np.vstack([k.d, np.zeros(3)]))
+        return Linear(np.vstack([upper, lower]), entry, np.vstack([voltage, speed]), np.vstack([k.d, np.zeros(3)]))
 
     def behaves_like(self, other: Drive) -> bool:
         """Whether a demand turns both alike."""
@@ -84,7 +86,7 @@ class SampledLoop:
 
     period: float
     every: int
-    law: Discrete
+    law: Linear
     ages: tuple[float, ...]
     drives: tuple[Drive, ...]
     operating_thrust: float
@@ -104,24 +106,48 @@ class SampledLoop:
         return sum(int((np.abs(part.poles()) > 1.0 + ON_THE_CIRCLE).sum()) for part in parts)
 
 
-def sampled_loop(scenario: Scenario, operating_thrust: float) -> SampledLoop:
-    """The linearised loop of a scenario's controller and motors.
+def sampled_loop(
+    scenario: Scenario, operating_thrust: float, controller: Controller | None = None, length: float = 0.0
+) -> SampledLoop:
+    """The linearised loop of a controller and the motors.
 
     Args:
-        scenario: its controller, motors and sensors are used.
+        scenario: its motors, sensors and, unless another is given, controller are used.
         operating_thrust: steady thrust, N; at 0 a propeller has no thrust to first order.
+        controller: decides in place of the scenario's own, which still shares and drives.
+        length: what that controller reads of the winch, m.
+
+    Raises:
+        Doubt: the controller has no linear system that speaks for it.
     """
-    settings = make_settings(scenario)
-    sensors, period = scenario.sensors, scenario.control.period
-    channels = (sensors.tip_displacement, sensors.tip_slope, sensors.tip_velocity, sensors.tip_slope_rate)
+    settings, period = make_settings(scenario), scenario.control.period
+    if controller is None:
+        law, every = outer_law(settings.outer), settings.outer_every
+    else:
+        settings = with_known_factors(settings)
+        law = linearise_controller(controller, _at_rest(scenario, settings, operating_thrust, length))
+        every = round(controller.period / period)
     return SampledLoop(
         period=period,
-        every=settings.outer_every,
-        law=outer_law(settings.outer),
-        ages=tuple(round(c.latency / period) * period for c in channels),
+        every=every,
+        law=law,
+        ages=tuple(round(getattr(scenario.sensors, name).latency / period) * period for name in READINGS),
         drives=_drives(scenario, settings, operating_thrust, 0.0),
         operating_thrust=operating_thrust,
     )
+
+
+def _at_rest(scenario: Scenario, settings: CascadeSettings, thrust: float, length: float) -> Rest:
+    """What a controller reads of an ROV at rest below the vessel, the motors delivering a steady thrust, N."""
+    speeds = [
+        np.sign(share) * soft_signed_root(abs(share * thrust), settings.motors.command_filter.width)
+        for share in shares(settings.motors, np.ones(1))[: len(scenario.motors)]
+    ]
+    brakes = [m.viscous_friction + m.load_coefficient * abs(w) for m, w in zip(scenario.motors, speeds, strict=True)]
+    currents = [b * w / m.torque_constant for b, w, m in zip(brakes, speeds, scenario.motors, strict=True)]
+    rate = 0.0 if scenario.sensors.ideal_velocity else None
+    seen = Measurement(0.0, 0.0, np.array(speeds), np.array(currents), length, 0.0, 0.0, rate, rate)
+    return Rest(seen, scenario.duration)
 
 
 def drives_at(scenario: Scenario, thrust: float, spread: float = 0.0) -> tuple[Drive, ...]:
@@ -155,8 +181,7 @@ def _drive(
     demand = share * thrust + np.sign(share) * make_state(scenario).kappa[1:].sum()
     varying = abs(share) * spread
     speed = float(soft_signed_root(np.hypot(demand, varying), motors.command_filter.width))
-    constants = motors.nominal[number]
-    law = delayed(motor_law(motors, constants, speed, abs(demand), varying), ages)
+    law = delayed(motor_law(motors, number, speed, abs(demand), varying), ages)
     rates, volts = motor_rates(motor, speed)
     return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * speed, abs(share))
 
@@ -237,7 +262,7 @@ def alias_sum(cable: HangingCable, loop: SampledLoop, p: np.ndarray, aliases: in
 
     turn = 2j * np.pi / loop.outer_period
     commands = [demands_to_volts(loop, p + r * turn) for r in range(loop.every)]  # these repeat
-    total = np.zeros((p.size, READINGS), dtype=complex)
+    total = np.zeros((p.size, len(READINGS)), dtype=complex)
     for k in [k for number in range(1, aliases + 1) for k in (number, -number)]:
         q = p + k * turn
         up = upward_asymptote(cable, q) if k > 0 else np.conj(upward_asymptote(cable, np.conj(q)))
@@ -275,8 +300,3 @@ def delivered(loop: SampledLoop, p: np.ndarray, volts: list[np.ndarray]) -> np.n
 def _thrust_per_volt(drive: Drive, p: np.ndarray) -> np.ndarray:
     (a, b), (c, d) = drive.rates
     return drive.weight * b * drive.volts[1, 0] / ((p - a) * (p - d) - b * c)
-
-
-def has_loop(scenario: Scenario) -> bool:
-    """Whether the scenario's controller closes a loop at all."""
-    return make_settings(scenario).outer.law != NONE

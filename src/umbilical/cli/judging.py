@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import Conclusion, conclude
-from umbilical.cli.options import Changes, Force, Json, Plot, Thrust
+from umbilical.cli.options import Changes, Force, Json, Own, Plot, Thrust
 from umbilical.cli.progress import bar
-from umbilical.cli.running import load_changed
-from umbilical.cli.speech import table
+from umbilical.cli.running import load_changed, own_controller
+from umbilical.cli.speech import table, tell
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -42,6 +42,7 @@ def margins(
             "--grid", metavar="N1,N2,N3", help="Elements of the grids to ask, 0 for none; 32,64,128, if need be 256."
         ),
     ] = None,
+    controller: Own = None,
     plot: Plot = None,
     as_json: Json = False,
     force: Force = False,
@@ -54,9 +55,12 @@ def margins(
       umbilical margins ringdown --set control.law.slope_gain=5
       umbilical margins paper --lengths 100,300,500 --plot margins.png
       umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
+      umbilical margins paper --controller my_module:MyLaw
 
-    Gain, phase and delay margins are for the loop opened at the thrusters. Exit code 7: not stable at every length,
-    or unresolved: exact cable, grids and eigenvalues do not say the same.
+    Gain, phase and delay margins are for the loop opened at the thrusters. A controller of your own is linearised
+    about the ROV at rest below the vessel by differences of its update, and held against it. Exit code 7: not stable
+    at every length, or unresolved: exact cable, grids and eigenvalues do not say the same, or a controller does not do
+    what its linearisation does.
     """
     chosen = load_changed(scenario, changes or [])
     if plot:
@@ -65,9 +69,16 @@ def margins(
 
     elements = GRIDS if grid is None else [round(number) for number in _numbers(grid, "--grid") or [] if number]
     finest = FINEST if grid is None else 0
+    own = own_controller(controller, chosen)
     with bar("margins") as advance:
         report = compute(
-            chosen, _numbers(lengths), operating_thrust, elements=elements, finest=finest, progress=advance
+            chosen,
+            _numbers(lengths),
+            operating_thrust,
+            controller=own,
+            elements=elements,
+            finest=finest,
+            progress=advance,
         )
     files = _draw(report, plot, force)
     return conclude(
@@ -77,6 +88,8 @@ def margins(
 
 def conclusion(report: MarginReport) -> Conclusion:
     """Whether the loop is stable at every length, if the grids that were asked agree."""
+    if report.doubt:
+        return Conclusion("UNRESOLVED", f"{report.scenario.name}: UNRESOLVED, {report.controller}: {report.doubt}")
     state = "stable" if report.stable else "NOT STABLE"
     if report.resolved is False:
         return Conclusion("UNRESOLVED", f"{report.scenario.name}: UNRESOLVED, {_disagreement(report)}")
@@ -101,6 +114,9 @@ def _numbers(words: str | None, option: str = "--lengths") -> list[float] | None
 def _draw(report: MarginReport, plot: Path | None, force: bool) -> dict[str, str]:
     if not plot:
         return {}
+    if report.doubt:
+        tell(f"{plot}: not drawn, there are no margins to draw")
+        return {}
     from umbilical.plots import plot_margins, save_figure
 
     return {"plot": str(save_figure(plot_margins(report), plot, force=force))}
@@ -114,6 +130,8 @@ def document(report: MarginReport) -> dict[str, Any]:
         "operating_thrust": report.operating_thrust,
         "stable": report.stable,
         "resolved": report.resolved,
+        "controller": report.controller or None,
+        "doubt": report.doubt or None,
         "grids": [
             {
                 "elements": g.elements,
@@ -158,6 +176,10 @@ def _one_length(j: Judgement) -> dict[str, Any]:
 def text(report: MarginReport) -> str:
     """What the verdict rests on, as people read it."""
     thrust = f"  motors linearised at a thrust of {report.operating_thrust:.4g} N"
+    if report.doubt:
+        return "  no margins are given"
+    if report.controller:
+        thrust += f"; {report.controller} linearised with the ROV at rest"
     lines = [thrust, table(rows(report), right=range(7))]
     lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
     return "\n".join(lines + _grids(report))

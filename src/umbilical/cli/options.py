@@ -17,4 +17,12 @@ Resume = Annotated[bool, Option("--resume", help="Go on with what is in the fold
 Trust = Annotated[
     bool, Option("--trust", help="Import the Python controllers that the study names, which runs their code.")
 ]
+Own = Annotated[
+    str | None,
+    Option(
+        "--controller",
+        metavar="MODULE:CLASS",
+        help="A controller of your own in place of the scenario's; it is imported, which runs its code.",
+    ),
+]
 Thrust = Annotated[float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")]

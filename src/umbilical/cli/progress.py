@@ -12,6 +12,7 @@ from umbilical.cli.terminal import printable
 from umbilical.cli.terminal import report as tell
 
 if TYPE_CHECKING:
+    from umbilical.control.contract import Controller
     from umbilical.run import Run
     from umbilical.scenario import Scenario
 
@@ -92,10 +93,10 @@ def announce_compilation() -> None:
     announce()
 
 
-def simulate_visibly(scenario: Scenario) -> Run:
+def simulate_visibly(scenario: Scenario, controller: Controller | None = None) -> Run:
     """Simulate with news on stderr."""
     from umbilical.engine.simulate import simulate
 
     announce_compilation()
     with bar(f"simulating {scenario.duration:g} s") as advance:
-        return simulate(scenario, progress=advance)
+        return simulate(scenario, controller, progress=advance)

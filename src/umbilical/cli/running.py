@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
-from umbilical.cli.options import Changes, Force, Json, Plot
+from umbilical.cli.options import Changes, Force, Json, Own, Plot
 from umbilical.cli.speech import run_document, say, say_json, tell
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.errors import OutputError, Problem, ScenarioError
 
 if TYPE_CHECKING:
+    from umbilical.control.contract import Controller
     from umbilical.run import Run
     from umbilical.scenario import Scenario
 
@@ -23,6 +24,7 @@ def run(
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.nc", help="Store the result (NetCDF4).")] = None,
     plot: Plot = None,
+    controller: Own = None,
     as_json: Json = False,
     force: Force = False,
 ) -> int:
@@ -34,6 +36,7 @@ def run(
       umbilical run my.toml --out my.nc --plot my.png
       umbilical run paper --set control.law.slope_gain=5 --set motors.2.voltage_limit=8
       umbilical run my.nc --json
+      umbilical run paper --controller my_module:MyLaw
 
     Lists are numbered from 1. A diverged or interrupted run is stored and drawn as far as it went.
     """
@@ -45,12 +48,12 @@ def run(
         check_target(plot, PICTURES, force=force)
     from umbilical.cli.progress import simulate_visibly
 
-    result = simulate_visibly(chosen)
+    result = simulate_visibly(chosen, own_controller(controller, chosen))
     files = _write(result, out, plot, force)
     if as_json:
-        say_json(run_document(result, files))
+        say_json(run_document(result, files) | {"controller": controller})
     else:
-        say(_report(result, files, scenario))
+        say(_report(result, files, scenario, controller))
     return result.status.exit_code
 
 
@@ -63,6 +66,19 @@ def _check_size(scenario: Scenario, out: Path) -> None:
         raise OutputError(f"{out}: the result takes {in_words(size)}, and the disk has {in_words(free)} left")
     if size >= LARGE:
         tell(f"{out}: the result will take {in_words(size)}")
+
+
+def own_controller(name: str | None, scenario: Scenario) -> Controller | None:
+    """The controller that ``--controller`` names, tried; None where it is not given.
+
+    Raises:
+        ScenarioError: there is none, or it fails at once.
+    """
+    if name is None:
+        return None
+    from umbilical.studies.controllers import named_controller
+
+    return named_controller(name, scenario)
 
 
 def load_changed(source: str, changes: Sequence[str]) -> Scenario:
@@ -106,8 +122,10 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     return files
 
 
-def _report(run: Run, files: dict[str, str], source: str) -> str:
+def _report(run: Run, files: dict[str, str], source: str, controller: str | None) -> str:
     lines = [run.summary()]
+    if controller:
+        lines.append(f"  controller: {controller}, in place of the scenario's; a result does not hold it")
     if run.scenario.assumed:
         count = len(run.scenario.assumed)
         lines.append(f"  assumed: {count} entries that no source gives; `umbilical show {source}` lists them")

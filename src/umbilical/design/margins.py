@@ -10,8 +10,11 @@ from typing import TypeVar
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import Judgement, check, judge_loop, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
+from umbilical.analysis.updates import Doubt
+from umbilical.control.contract import Controller
 from umbilical.design.grid import GridJudgement, check_count, judge_grid, resolved
 from umbilical.design.matrix import MatrixCheck
+from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.scenario import Scenario
 
@@ -28,6 +31,8 @@ class MarginReport:
         judgements: one for each length, from the exact cable.
         grids: the longest length once more, with the echo of the engine's own grids, at several resolutions.
         check: the count on a coarse one of them against eigenvalues; None without grids.
+        controller: what decides in place of the scenario's own law; empty for that.
+        doubt: why a controller has no linear system that speaks for it; then there are no judgements.
     """
 
     scenario: Scenario
@@ -35,8 +40,12 @@ class MarginReport:
     judgements: tuple[Judgement, ...]
     grids: tuple[GridJudgement, ...] = ()
     check: MatrixCheck | None = None
+    controller: str = ""
+    doubt: str = ""
 
     def __repr__(self) -> str:
+        if self.doubt:
+            return f"<MarginReport {self.scenario.name}: unresolved, {self.doubt}>"
         lengths = ", ".join(f"{judgement.length:g}" for judgement in self.judgements)
         state = "stable" if self.stable else "unstable"
         return f"<MarginReport {self.scenario.name}: {state}, resolved {self.resolved}, at {lengths} m>"
@@ -47,11 +56,16 @@ class MarginReport:
     @property
     def stable(self) -> bool:
         """Whether the loop is stable at every length."""
-        return all(judgement.stable for judgement in self.judgements)
+        return not self.doubt and all(judgement.stable for judgement in self.judgements)
 
     @property
     def resolved(self) -> bool | None:
-        """Whether the finest grids agree with the exact cable, and the check; None for fewer than three."""
+        """Whether the finest grids agree with the exact cable, and the check; None for fewer than three.
+
+        False too where the linearised controller is not what runs.
+        """
+        if self.doubt:
+            return False
         if len(self.grids) < 3 or self.check is None:
             return None
         return resolved(self.grids) and self.check.agrees
@@ -62,6 +76,7 @@ def margins(
     lengths: Sequence[float] | None = None,
     operating_thrust: float | None = None,
     *,
+    controller: Controller | None = None,
     elements: Sequence[int] = (),
     finest: int = 0,
     progress: Callable[[float], None] | None = None,
@@ -73,6 +88,9 @@ def margins(
         lengths: m, the winch standing still; if left out, shortest, middle and longest of the run.
         operating_thrust: steady thrust at which the motors are linearised, N; if left out, the mean force on
             the ROV, at least the pull of a slope of 0.01.
+        controller: decides in place of the scenario's own, as in :func:`umbilical.simulate`; it is linearised by
+            differences of its ``update`` with the ROV at rest, and :attr:`MarginReport.doubt` says where that does not
+            speak for it.
         elements: numbers of elements on which the engine's own matrices are asked, too; three or more give a
             verdict.
         finest: while that verdict is open, grids of twice as many elements follow, up to this number.
@@ -80,26 +98,35 @@ def margins(
 
     Raises:
         ScenarioError: there is no loop, it cannot be linearised, or a length or the thrust is out of range.
+        ControllerError: the controller breaks its contract in its first updates.
 
     >>> import umbilical
     >>> report = margins(umbilical.load("ringdown"))
     >>> report.stable, [judgement.length for judgement in report.judgements]
     (True, [400.0])
     """
-    check(scenario)
+    if controller is None:
+        check(scenario)
+    else:
+        rehearse(scenario, controller)
     chosen = usual_lengths(scenario) if lengths is None else _as_lengths(scenario, lengths)
     thrust = usual_thrust(scenario) if operating_thrust is None else float(operating_thrust)
     check_request(scenario, chosen, thrust, elements)
     done = _steps(progress, len(chosen) + len(elements) + bool(elements))
-    loop = sampled_loop(scenario, thrust)
-    found = tuple(done(judge_loop(hanging_cable(scenario, length), loop)) for length in chosen)
+    name = type(controller).__name__ if controller else ""
+    try:
+        loops = [sampled_loop(scenario, thrust, controller, length) for length in chosen]
+    except Doubt as doubt:
+        return MarginReport(scenario, thrust, (), controller=name, doubt=str(doubt))
+    pairs = zip(chosen, loops, strict=True)
+    found = tuple(done(judge_loop(hanging_cable(scenario, length), loop)) for length, loop in pairs)
     longest = max(found, key=lambda judgement: judgement.length)
     checked = done(check_count(scenario, longest, elements)) if elements else None
     grids = [done(judge_grid(scenario, longest, number)) for number in elements]
     # Where both are unstable they differ in how many waves a grid carries; a finer one costs much and differs, too.
     while grids and 2 * grids[-1].elements <= finest and not resolved(grids) and (longest.stable or grids[-1].margins):
         grids.append(judge_grid(scenario, longest, 2 * grids[-1].elements))
-    return MarginReport(scenario, thrust, found, tuple(grids), checked)
+    return MarginReport(scenario, thrust, found, tuple(grids), checked, name)
 
 
 def _as_lengths(scenario: Scenario, lengths: Sequence[float]) -> tuple[float, ...]:
@@ -115,8 +142,8 @@ def _as_lengths(scenario: Scenario, lengths: Sequence[float]) -> tuple[float, ..
             "lengths",
             f"{lengths!r} ({type(lengths).__name__})",
             "a list of lengths, m",
-            "margins are those of the scenario's own law, boundary or PD; a controller written in Python has none",
-            "margins(scenario, [300.0, 400.0]); for a controller of your own, simulate(scenario, controller)",
+            "the second argument of margins",
+            "margins(scenario, [300.0, 400.0]); a controller of your own goes in as controller=",
         )
         raise ScenarioError([problem], scenario.name) from error
 

@@ -1,8 +1,8 @@
 """The loop with the engine's own grid as matrices from sample to sample.
 
-Cable and ROV are the Jacobian of the engine's rates (:func:`umbilical.engine.linear.linearise`), advanced by
+Cable and ROV are the Jacobian of the engine's rates (:func:`umbilical.engine.linear.linearise_plant`), advanced by
 its multistep weights; motors by its Runge-Kutta step; the thrust enters as the mean that the engine takes of it.
-Controller and motor loops are the matrices of :mod:`umbilical.analysis.controller`, tested against the kernels.
+Controller and motor loops are linearised from what runs (:mod:`umbilical.analysis.laws`).
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from umbilical.analysis.discrete import Discrete
+from umbilical.analysis.linear import Linear
 from umbilical.analysis.sampled import Drive, SampledLoop
-from umbilical.engine.linear import Linear, linearise
+from umbilical.engine.linear import LinearPlant, linearise_plant
 from umbilical.plant.multistep import EXPLICIT, IMPLICIT
 from umbilical.scenario.scenario import Scenario
 
@@ -38,7 +38,7 @@ class LinearPeriod:
     a: Sparse
     b: np.ndarray
     c: np.ndarray
-    law: Discrete
+    law: Linear
     period: float
 
     def plant(self, w: np.ndarray) -> np.ndarray:
@@ -73,32 +73,32 @@ class LinearPeriod:
 def linear_period(scenario: Scenario, loop: SampledLoop, length: float) -> LinearPeriod:
     """The loop on the scenario's grid at a frozen length, m."""
     still = scenario.replace({"winch": {"law": "constant", "length": length}})
-    linear = linearise(still)
-    substeps = round(loop.period / linear.step)
-    step, force = _cable_step(linear), _force_entry(linear)
+    plant = linearise_plant(still)
+    substeps = round(loop.period / plant.step)
+    step, force = _cable_step(plant), _force_entry(plant)
     if loop.drives:
-        a, b = _driven(step, force, loop, linear.step, substeps)
+        a, b = _driven(step, force, loop, plant.step, substeps)
     else:
         a, b = _power(step, sparse.csc_array(force[0] + force[1] + force[2]), substeps)
     a, b = _power(a, b, loop.every)
     c = np.zeros((4, a.shape[0]))
-    c[:, : linear.push.size] = linear.samples
+    c[:, : plant.a.shape[0]] = plant.c
     a, b, c = _aged(a, b, c, [round(age / loop.outer_period) for age in loop.ages])
     return LinearPeriod(sparse.csc_array(a), b.toarray(), c, loop.law, loop.outer_period)
 
 
-def _cable_step(linear: Linear) -> Sparse:
-    """State and its last two rates to the same a step later, as :func:`umbilical.engine.linear.step_matrix`."""
-    rates: Sparse = linear.rates
-    now, last, before = linear.step * EXPLICIT[2]
-    one: Sparse = sparse.eye_array(linear.push.size)
+def _cable_step(plant: LinearPlant) -> Sparse:
+    """State and its last two rates to the same a step later, as :func:`umbilical.engine.plant.step_matrix`."""
+    rates: Sparse = plant.a
+    now, last, before = plant.step * EXPLICIT[2]
+    one: Sparse = sparse.eye_array(plant.a.shape[0])
     blocks: Sparse = [[one + now * rates, last * one, before * one], [rates, None, None], [None, one, None]]
     return sparse.csc_array(sparse.block_array(blocks))
 
 
-def _force_entry(linear: Linear) -> list[np.ndarray]:
+def _force_entry(plant: LinearPlant) -> list[np.ndarray]:
     """What a force at the end of a step, at its start and one step before adds in the step, columns."""
-    column = np.concatenate([linear.push, np.zeros(2 * linear.push.size)])[:, None] * linear.step
+    column = np.vstack([plant.b, np.zeros((2 * plant.a.shape[0], 1))]) * plant.step
     return [weight * column for weight in IMPLICIT[1]]
 
 

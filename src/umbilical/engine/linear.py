@@ -1,18 +1,21 @@
 """The engine's own step as matrices: what frequencies, margins and spectra are read from.
 
-The rates of cable and ROV are linear in their state, so evaluating them at unit vectors gives their Jacobian to
-round-off: no second discretisation that could differ from the one that runs. The state lists the slopes and
-velocities of a block (5, 2 n) as they lie in memory (``plant/layout.py``), then the ROV's velocity: 10 n + 1.
+Differences of the rates of cable and ROV about a straight cable at rest give their Jacobian there: no second
+discretisation that could differ from the one that runs, and a force that is not linear counts with its slope at that
+point, a quadratic drag in still water with none. The state lists the slopes and velocities of a block (5, 2 n) as they
+lie in memory (``plant/layout.py``), then the ROV's velocity: 10 n + 1.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy import sparse
 
+from umbilical.analysis.linear import Linear, Names, differences
 from umbilical.control.contract import TipReadings
 from umbilical.engine.loop import World
 from umbilical.engine.sensing import read_truth
@@ -29,33 +32,32 @@ from umbilical.scenario.scenario import Scenario
 SAMPLES = tuple(TipReadings.fields)
 
 
-class Linear(NamedTuple):
-    """Cable and ROV with the winch stopped, as the engine sees them: ``x' = rates x + push F``, ``z = samples x``.
+@dataclass(frozen=True)
+class LinearPlant(Linear):
+    """Cable and ROV with the winch stopped, as the engine sees them: ``x' = a x + b F``, ``z = c x``.
 
     Attributes:
-        rates: sparse, shape (10 n + 1, 10 n + 1), 1/s.
-        push: rate per newton of force on the ROV, shape (10 n + 1,).
-        samples: y(l,t), y_x(l,t), Dy/Dt(l,t) and D(y_x)/Dt(l,t) from the state, shape (4, 10 n + 1).
+        a: sparse, shape (10 n + 1, 10 n + 1), 1/s.
+        b: rate per newton of force on the ROV, shape (10 n + 1, 1).
+        c: y(l,t), y_x(l,t), Dy/Dt(l,t) and D(y_x)/Dt(l,t) from the state, shape (4, 10 n + 1).
+        d: zero, shape (4, 1).
         step: step of the plant, s. The engine advances the rates by the third-order Adams-Bashforth weights
-            ``b = (23, -16, 5)/12``, so with a force F that is held for the step, in terms of the shift z by one step,
-            ``x = ((z - 1) I - step (b0 + b1/z + b2/z^2) rates)^-1 step push F``.
+            ``w = (23, -16, 5)/12``, so with a force F that is held for the step, in terms of the shift z by one step,
+            ``x = ((z - 1) I - step (w0 + w1/z + w2/z^2) a)^-1 step b F``.
     """
 
-    rates: sparse.csc_array
-    push: np.ndarray
-    samples: np.ndarray
-    step: float
+    step: float = 0.0
 
 
-def linearise(scenario: Scenario, time: float = 0.0) -> Linear:
-    """Rates of cable and ROV with the winch stopped, no load and no thrust, eqs. (6)-(8).
+def linearise_plant(scenario: Scenario, time: float = 0.0) -> LinearPlant:
+    """Rates of cable and ROV with the winch stopped, no load and no thrust, eqs. (6)-(8), straight and at rest.
 
     Args:
         scenario: its cable, ROV, gravity, grid and step are used; loads, vessel and controller are left out.
         time: the winch stops at the length it has then, s.
 
     >>> import umbilical
-    >>> linearise(umbilical.load("paper", {"grid.elements": 4})).rates.shape
+    >>> linearise_plant(umbilical.load("paper", {"grid.elements": 4})).a.shape
     (41, 41)
     """
     still = _stopped(scenario, time)
@@ -65,16 +67,18 @@ def linearise(scenario: Scenario, time: float = 0.0) -> Linear:
     size = world.state.blocks[PRESENT].size + 1
     entries, samples = [], np.zeros((len(SAMPLES), size))
     samples[0, :-1].reshape(5, -1)[:, : still.grid.elements] = WEIGHTS[:, None] / (2 * still.grid.elements)
-    for columns in _independent(still.grid.elements):
-        rate, sampled = _look(world, columns, size)
-        entries.append(_entries(rate, columns, still.grid.elements))
+    directions = list(_independent(still.grid.elements))
+    moved = differences(lambda state: _rates_and_samples(world, state), np.zeros(size), directions)
+    for columns, change in zip(directions, moved, strict=True):
+        entries.append(_entries(change[:size], columns, still.grid.elements))
         # The ROV feels and the sensors see the last element and the ROV only; the displacement is the sum above.
-        last = columns[-1]
-        samples[1:, last] = sampled[1:]
+        samples[1:, columns[-1]] = change[size + 1 :]
     rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
-    push = np.zeros(size)
+    push = np.zeros((size, 1))
     push[-1] = 1.0 / still.payload.mass
-    return Linear(sparse.csc_array((values, (rows, columns)), shape=(size, size)), push, samples, step)
+    rates = sparse.csc_array((values, (rows, columns)), shape=(size, size))
+    names = Names(inputs=("thrust",), outputs=SAMPLES)
+    return LinearPlant(rates, push, samples, np.zeros((len(SAMPLES), 1)), names, step)
 
 
 def _independent(elements: int) -> Iterator[np.ndarray]:
@@ -102,11 +106,11 @@ def step_poles(scenario: Scenario, time: float = 0.0) -> Any:
     """Poles of cable and ROV as the engine's step has them, 1/s, shape (10 n + 1,), by increasing imaginary part.
 
     A mode that changes by the factor z in a step stands for the pole ``log(z)/step``. Waves too short for the grid
-    decay fast. Arguments as for :func:`linearise`.
+    decay fast. Arguments as for :func:`linearise_plant`.
     """
-    linear = linearise(scenario, time)
-    products = linear.step * np.linalg.eigvals(linear.rates.toarray())
-    poles = np.log(np.array([_principal_root(q) for q in products])) / linear.step
+    plant = linearise_plant(scenario, time)
+    products = plant.step * np.linalg.eigvals(plant.a.toarray())
+    poles = np.log(np.array([_principal_root(q) for q in products])) / plant.step
     return poles[np.argsort(poles.imag)]
 
 
@@ -119,14 +123,14 @@ def _principal_root(product: complex) -> complex:
 def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
     """One step from the state and its last two rates to the same one step later, shape (30 n + 3, 30 n + 3).
 
-    Arguments as for :func:`linearise`.
+    Arguments as for :func:`linearise_plant`.
 
     >>> import umbilical
     >>> step_matrix(umbilical.load("paper", {"grid.elements": 4})).shape
     (123, 123)
     """
-    linear = linearise(scenario, time)
-    rates, (now, last, before) = linear.rates.toarray(), linear.step * EXPLICIT[2]
+    plant = linearise_plant(scenario, time)
+    rates, (now, last, before) = plant.a.toarray(), plant.step * EXPLICIT[2]
     one, none = np.eye(rates.shape[0]), np.zeros_like(rates)
     return np.block([[one + now * rates, last * one, before * one], [rates, none, none], [none, one, none]])
 
@@ -147,14 +151,11 @@ def _stopped(scenario: Scenario, time: float) -> Scenario:
     )
 
 
-def _look(world: World, columns: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rates and samples at the sum of some unit vectors of the state."""
+def _rates_and_samples(world: World, values: np.ndarray) -> np.ndarray:
+    """Rates at a state, then what the sensors at the ROV read."""
     state = world.state
     block, ends = state.blocks[PRESENT], state.now[0].ends
-    unit = np.zeros(size)
-    unit[columns] = 1.0
-    block.flat[:], ends.tip_velocity = unit[:-1], unit[-1]
+    block.flat[:], ends.tip_velocity = values[:-1], values[-1]
     find_rates(world.plant, state)
     read_truth(state, world.readings)
-    rate = np.append(state.blocks[RATES].ravel(), ends.tip_rates[0])
-    return rate, np.array(numbers(world.readings.tip[0]))
+    return np.concatenate([state.blocks[RATES].ravel(), ends.tip_rates[:1], numbers(world.readings.tip[0])])

@@ -6,14 +6,13 @@ from typing import Any
 
 import numpy as np
 
+from umbilical.analysis.laws import READINGS
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
 from umbilical.design.margins import check_request
 from umbilical.design.period import linear_period
 from umbilical.errors import MissingPartnerError
 from umbilical.scenario.scenario import Scenario
-
-READINGS: tuple[str, ...] = ("tip_displacement", "tip_slope", "tip_velocity", "tip_slope_rate")
 
 
 def to_control(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
@@ -13,15 +13,51 @@ _POSITIVE = {"gt": 0.0, "reason": "a gain of the wrong sign drives the loop apar
 _NOT_NEGATIVE = {"ge": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "0 or more"}
 
 
-class NoControl(Record):
+class Law(Record):
+    """What everyone may ask of an outer law, whichever it is.
+
+    Attributes:
+        closes_loop: whether it commands a thrust at all.
+        meets_force: whether it works against the force on the ROV that the disturbance observer estimates.
+        rates_key: its key that says where rates come from.
+    """
+
+    closes_loop: ClassVar[bool] = True
+    meets_force: ClassVar[bool] = False
+    rates_key: ClassVar[str] = "rates"
+
+    @property
+    def observers(self) -> tuple[str, ...]:
+        """The observers of :class:`Control` that it reads."""
+        return ()
+
+    @property
+    def reads_rates(self) -> bool:
+        """Whether it reads rates from an ideal sensor."""
+        return False
+
+    @property
+    def spring(self) -> float:
+        """Thrust per displacement of the ROV held for good, N/m."""
+        return 0.0
+
+    @property
+    def boundary_gains(self) -> tuple[float, float] | None:
+        """k_a, N s/m, and beta, m/s, of a law that makes ``u_a = Dy/Dt + beta y_x`` vanish at the ROV."""
+        return None
+
+
+class NoControl(Law):
     """No thrust is ever commanded."""
 
+    closes_loop: ClassVar[bool] = False
     kind: Literal["none"]
 
 
-class ProportionalDerivative(Record):
+class ProportionalDerivative(Law):
     """The paper's baseline, eq. (66): ``alpha_c = -k_p y(l,t) - k_d Dy/Dt(l,t)``."""
 
+    rates_key: ClassVar[str] = "velocity"
     kind: Literal["pd"]
     position_gain: float = quantity("position_gain", **_NOT_NEGATIVE)
     velocity_gain: float = quantity("velocity_gain", **_NOT_NEGATIVE)
@@ -29,16 +65,41 @@ class ProportionalDerivative(Record):
         default="observer", description="where the velocity comes from; 'sensor' needs sensors.ideal_velocity"
     )
 
+    @property
+    def observers(self) -> tuple[str, ...]:
+        return ("velocity_observer",) if self.velocity == "observer" else ()
 
-class BoundaryLaw(Record):
+    @property
+    def reads_rates(self) -> bool:
+        return self.velocity == "sensor"
+
+    @property
+    def spring(self) -> float:
+        return self.position_gain
+
+
+class BoundaryLaw(Law):
     """The paper's output-feedback boundary law, eq. (22)."""
 
+    meets_force: ClassVar[bool] = True
     kind: Literal["boundary"]
     damping_gain: float = quantity("damping_gain", **_POSITIVE)
     slope_gain: float = quantity("slope_gain", **_NOT_NEGATIVE)
     rates: Literal["sensor", "observer"] = Field(
         default="observer", description="where x2 and z2 come from; 'sensor' needs sensors.ideal_velocity"
     )
+
+    @property
+    def observers(self) -> tuple[str, ...]:
+        return ("velocity_observer", "slope_observer") if self.rates == "observer" else ()
+
+    @property
+    def reads_rates(self) -> bool:
+        return self.rates == "sensor"
+
+    @property
+    def boundary_gains(self) -> tuple[float, float]:
+        return self.damping_gain, self.slope_gain
 
 
 OuterLaw = Annotated[NoControl | ProportionalDerivative | BoundaryLaw, Field(discriminator="kind")]

@@ -1,10 +1,11 @@
-"""Python controllers that a study names: never imported without the user's word, and tried before the first member."""
+"""Python controllers by name: those of a study are never imported without the user's word, all are tried first."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from inspect import signature
 from typing import Any
 
 from umbilical.control.contract import Controller
@@ -30,20 +31,36 @@ def check_controllers(study: Study, *, trust: bool) -> None:
         ScenarioError: it is not allowed, there is no such function, it cannot be called with a scenario, what it gives
             is no controller, or that fails at once; with every problem.
     """
-    find = _failure if trust else _not_trusted
+    find = _fails_in_its_arm if trust else _not_trusted
     found = [(number, arm, find(study, arm)) for number, arm in enumerate(study.arms, start=1) if arm.controller]
     if problems := [_problem(number, arm, *why) for number, arm, why in found if why]:
         raise ScenarioError(problems, study.name)
 
 
 def make_controller(path: str | None, scenario: Scenario) -> Any:
-    """The Python controller an arm names as ``module:function``, made from the member's scenario; None for none.
+    """The Python controller that ``module:function`` or ``module:Class`` makes from a scenario; None for none.
+
+    What asks for no argument gets none.
 
     Raises:
         ImportError, AttributeError, ValueError: there is no such module or function.
         Exception: whatever the function raises.
     """
-    return None if path is None else _factory(path)(scenario)
+    if path is None:
+        return None
+    make: Callable[..., Any] = _factory(path)
+    return make() if callable(make) and not signature(make).parameters else make(scenario)
+
+
+def named_controller(path: str, scenario: Scenario, key: str = "--controller") -> Controller:
+    """The controller that the user of a command names, after its first updates in the scenario.
+
+    Raises:
+        ScenarioError: as for :func:`check_controllers`.
+    """
+    if why := _failure(path, scenario, "this scenario's run"):
+        raise ScenarioError([Problem(key, path, *why)], scenario.name)
+    return make_controller(path, scenario)
 
 
 def describe_error(error: BaseException) -> str:
@@ -61,12 +78,15 @@ def _not_trusted(study: Study, arm: Arm) -> tuple[str, str, str]:
     return "a controller you trust", reason, "read it, then give --trust (in Python: trust=True)"
 
 
-def _failure(study: Study, arm: Arm) -> tuple[str, str, str] | None:
+def _fails_in_its_arm(study: Study, arm: Arm) -> tuple[str, str, str] | None:
+    return _failure(str(arm.controller), validate(arm_data(study, arm.changes), study.name), "this arm's run")
+
+
+def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] | None:
     """What is allowed, why this is not, and what to do; None where the controller works."""
-    scenario = validate(arm_data(study, arm.changes), study.name)
     bound, cure = "module:function, which makes a controller from a scenario", "see `Your own controller` in the guide"
     try:
-        controller = make_controller(arm.controller, scenario)
+        controller = make_controller(path, scenario)
         if not isinstance(controller, Controller):
             missing = ", ".join(name for name in ("period", "start", "update") if not hasattr(controller, name))
             return bound, f"it gives {type(controller).__name__}, which has no {missing}", cure
@@ -74,7 +94,7 @@ def _failure(study: Study, arm: Arm) -> tuple[str, str, str] | None:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # sys.exit in a controller must not end us
-        return bound, f"it fails at the start of this arm's run: {describe_error(error)}", cure
+        return bound, f"it fails at the start of {where}: {describe_error(error)}", cure
     return None
 
 
@@ -82,7 +102,7 @@ def _problem(number: int, arm: Arm, bound: str, reason: str, cure: str) -> Probl
     return Problem(f"arms.{number}.controller", f'"{arm.controller}"', bound, reason, cure)
 
 
-def _factory(path: str) -> Callable[[Scenario], Any]:
+def _factory(path: str) -> Callable[..., Any]:
     module, _, name = path.partition(":")
     if "" not in sys.path:
         sys.path.append("")  # controllers usually lie in the folder one works in

@@ -1,37 +1,28 @@
-"""The built-in controller as linear systems: what its kernels do to small deviations, adaptation frozen.
+"""The outer laws and the loop of a motor as matrices, written out by hand from the equations.
 
-The outer law with its observers is linear as it is. The loop of a motor is linearised at a steady speed w0,
-where every error is zero and the smooth robust terms are gains ``bound * factor / width``. Both are tested
-equal to differences of the kernels themselves.
+The product takes these matrices from its kernels by differences; here each line is a row over (states, inputs).
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from umbilical.analysis.discrete import Discrete
-from umbilical.control.cascade import BOUNDARY, NONE, PD, Motors, Outer
+from umbilical.analysis.laws import READINGS, root_slope
+from umbilical.analysis.linear import Linear
+from umbilical.control.cascade import BOUNDARY, PD, Motors, Outer
 from umbilical.relations.formulas import MotorConstants
 from umbilical.relations.tension import net_gravity, tension
 
-READINGS = 4
-"""y(l), y_x(l) and, where they are granted, Dy/Dt and D(y_x)/Dt."""
-_DEVIATIONS = np.linspace(-6.0, 6.0, 801)
-_LIKELIHOOD = np.exp(-0.5 * _DEVIATIONS**2) / np.exp(-0.5 * _DEVIATIONS**2).sum()
 
-
-def outer_law(outer: Outer) -> Discrete:
+def outer_law(outer: Outer) -> Linear:
     """From the four readings at the ROV to the commanded thrust alpha_c, eqs. (17), (19), (21), (22), (66).
 
-    States are pi1, pi2, chi1, chi2, phi and the alpha_c that was commanded last. The steps are written out as
-    in ``control/cascade.py``, each line a row over (states, readings).
+    States are pi1, pi2, chi1, chi2, phi and the alpha_c that was commanded last.
     """
     states = 6
-    unit = np.eye(states + READINGS)
+    unit = np.eye(states + len(READINGS))
     pi, chi, phi, command = unit[:2], unit[2:4], unit[4], unit[5]
     displacement, slope, velocity, slope_rate = unit[states:]
-    if outer.law == NONE:
-        return _from_rows(np.zeros((states, states + READINGS)), np.zeros(states + READINGS))
     pi = _advanced(outer.velocity_observer.form, pi, displacement)
     chi = _advanced(outer.slope_observer.form, chi, slope)
     if not outer.ideal_rates:
@@ -51,7 +42,7 @@ def outer_law(outer: Outer) -> Discrete:
     return _from_rows(np.vstack([pi, chi, phi, thrust]), thrust)
 
 
-def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: float, spread: float = 0.0) -> Discrete:
+def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: float, spread: float = 0.0) -> Linear:
     """From (demand U_i, w, i) to the voltage of one motor, eqs. (52)-(64), near a steady speed and demand.
 
     States are w_d, w_d', w_d'', ups and the V that was held last. ``spread`` as for :func:`root_slope`.
@@ -79,40 +70,12 @@ def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: f
     return _from_rows(np.vstack([reference, ups, drive]), drive / c.f23)
 
 
-def root_slope(demand: float, width: float, spread: float = 0.0) -> float:
-    """Slope of the softened root U/(U^2 + s^2)^(1/4) at a demand, s/rad.
-
-    Args:
-        demand: mean of the demand, rad2/s2.
-        width: s, rad2/s2.
-        spread: standard deviation of a normally distributed demand, rad2/s2; the slope is then the mean slope, the
-            gain of the equivalent linear element (Roberts, Spanos: Random Vibration and Statistical Linearization).
-
-    >>> round(root_slope(0.0, 1e-3), 2), round(root_slope(0.0, 1e-3, spread=4.0), 3)
-    (31.62, 0.43)
-    """
-    if spread > 1e-3 * np.hypot(demand, width):
-        # The mean slope is E[root(U) x]/spread (Stein's lemma), which needs no point close to the steep part.
-        demands = demand + spread * _DEVIATIONS
-        roots = demands / np.sqrt(np.hypot(demands, width))
-        return float((roots * _DEVIATIONS * _LIKELIHOOD).sum() / spread)
-    square = demand * demand + width * width
-    return (0.5 * demand * demand + width * width) / square**1.25
-
-
-def shares(motors: Motors, kappa: np.ndarray) -> np.ndarray:
-    """Demand on each motor per commanded thrust, rad2/(N s2), kappa frozen where it adapts (23)."""
-    coefficients = motors.nominal["thrust_coefficient"]
-    factor = kappa[0] if motors.adaptation.enabled else 1.0 / np.abs(coefficients).sum()
-    return np.sign(coefficients) * factor
-
-
 def _advanced(form: np.ndarray, memory: np.ndarray, signal: np.ndarray) -> np.ndarray:
     """One exact step ``form [memory, signal]`` of a filter, on rows."""
     return form @ np.vstack([memory, signal])
 
 
-def _from_rows(states: np.ndarray, output: np.ndarray) -> Discrete:
+def _from_rows(states: np.ndarray, output: np.ndarray) -> Linear:
     """The system whose new states and output are these rows over (states, inputs)."""
     n = states.shape[0]
-    return Discrete(states[:, :n], states[:, n:], output[None, :n], output[None, n:])
+    return Linear(states[:, :n], states[:, n:], output[None, :n], output[None, n:])

@@ -1,0 +1,74 @@
+"""``--controller``: a law of one's own is run, judged and never taken for the scenario's."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+LAWS = """
+from umbilical import Command
+
+class Damper:
+    period = 2e-3
+
+    def start(self, measurement):
+        return measurement.tip_displacement, 0.0
+
+    def update(self, t, measurement, state):
+        before, velocity = state
+        now = measurement.tip_displacement
+        velocity += 0.04 * ((now - before) / self.period - velocity)
+        return Command(thrust=-1e3 * velocity), (now, velocity)
+
+class Bang(Damper):
+    def update(self, t, measurement, state):
+        return Command(thrust=-10.0 if measurement.tip_displacement > 0.0 else 10.0), state
+
+class Broken:
+    period = 1e-3
+"""
+
+
+@pytest.fixture
+def laws(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    (tmp_path / "laws_of_a_user.py").write_text(LAWS, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    yield "laws_of_a_user"
+    sys.modules.pop("laws_of_a_user", None)
+
+
+def test_run(umbilical, laws):
+    done = umbilical("run", "paper", "--set", "duration=0.5", "--controller", f"{laws}:Damper", "--json")
+    document = done.document()
+    assert (done.code, document["controller"]) == (0, f"{laws}:Damper")
+    text = umbilical("run", "paper", "--set", "duration=0.5", "--controller", f"{laws}:Damper").out
+    assert f"controller: {laws}:Damper, in place of the scenario's" in text
+
+
+def test_margins(umbilical, laws):
+    done = umbilical("margins", "ringdown", "--controller", f"{laws}:Damper", "--grid", "0")
+    assert done.code == 0
+    assert done.out.startswith("ringdown: stable")
+    assert "Damper linearised with the ROV at rest" in done.out
+
+
+def test_margins_that_nothing_speaks_for_are_unresolved(umbilical, laws, tmp_path):
+    picture = tmp_path / "margins.png"
+    done = umbilical("margins", "ringdown", "--controller", f"{laws}:Bang", "--plot", picture)
+    assert done.code == 7
+    assert done.out.startswith("ringdown: UNRESOLVED, Bang: ")
+    assert not picture.exists()
+    document = umbilical("margins", "ringdown", "--controller", f"{laws}:Bang", "--json").document()
+    assert (document["verdict"], document["stable"], document["lengths"]) == ("UNRESOLVED", False, [])
+
+
+@pytest.mark.parametrize("command", ["run", "margins"])
+@pytest.mark.parametrize(("name", "why"), [("Broken", "no start, update"), ("Missing", "AttributeError")])
+def test_what_is_no_controller_is_refused_before_the_work(umbilical, laws, command, name, why):
+    done = umbilical(command, "ringdown", "--controller", f"{laws}:{name}")
+    assert done.code == 2
+    assert why in done.err
+    assert "Traceback" not in done.err
