@@ -104,3 +104,24 @@ def test_vessel_without_ramp_is_the_signal() -> None:
     displacement, velocity = signals.vessel(sea, 1.0)
     assert displacement == 2.0 * np.sin(0.6)
     assert velocity == 2.0 * 0.6 * np.cos(0.6)
+
+
+def test_a_linear_table_jumps_where_an_instant_stands_twice() -> None:
+    jumping: Signal = (
+        Table(kind="table", times=(0.0, 1.0, 1.0, 2.0), values=(0.0, 1.0, 5.0, 4.0), interpolation="linear"),
+    )
+    assert signals.evaluate(jumping, [0.5, 1.0, 1.5]).tolist() == [0.5, 5.0, 4.5]
+    assert signals.evaluate(jumping, 1.0, "left").item() == 1.0
+    assert signals.derivative(jumping, [0.5, 1.0, 1.5]).tolist() == [1.0, -1.0, -1.0]
+    assert signals.derivative(jumping, 1.0, "left").item() == 1.0
+    assert signals.jumps(jumping) == (0.0, 1.0, 2.0)
+
+
+def test_a_monotone_curve_stays_in_its_data() -> None:
+    steep: Signal = (
+        Table(kind="table", times=(0.0, 1.0, 2.0, 3.0), values=(0.0, 0.0, 1.0, 1.0), interpolation="pchip"),
+    )
+    fine = np.linspace(0.0, 3.0, 301)
+    found = signals.evaluate(steep, fine)
+    assert (found.min(), found.max()) == (0.0, 1.0)
+    assert signals.derivative(steep, fine)[1:-1] == pytest.approx(np.gradient(found, fine)[1:-1], abs=0.05)

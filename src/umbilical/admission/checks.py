@@ -38,6 +38,7 @@ CHECKS = (
     motion.wave_speed,
     statics.static_slope,
     motion.vessel_is_continuous,
+    motion.vessel_moves_like_one,
     motion.vessel_at_the_start,
     equipment.motors_are_there,
     equipment.thrust_coefficients,

@@ -10,6 +10,7 @@ from typing import Any
 from umbilical import files
 from umbilical.admission.examine import admit_data
 from umbilical.admission.presets import preset_names, preset_text
+from umbilical.admission.recorded import consequences, forget, read_files
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import extend, read, try_override
@@ -24,6 +25,9 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
             is taken. A file may start from a preset with ``extends = "paper"`` and say only what differs.
         overrides: values by dotted keys, lists numbered from 1, e.g. ``{"cable.line_density": 3.0}``.
 
+    Files that the scenario names are read relative to its folder (to the current one, for a preset), and their numbers
+    are kept in it.
+
     Raises:
         FileError: there is no such preset or file, it cannot be read, or it is not TOML.
         ScenarioError: with every problem of the fields and between them.
@@ -34,7 +38,12 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
     origin = os.fspath(source)
     data = _extended(read(_text(origin), origin), origin)
     changed, lost = try_override(data, overrides or {})
-    return admit_data(changed, origin, lost)
+    forget(changed, overrides or {})
+    unread = read_files(changed, Path() if origin in preset_names() else Path(origin).parent)
+    try:
+        return admit_data(changed, origin, [*lost, *unread])
+    except ScenarioError as error:
+        raise ScenarioError(consequences(error.problems, unread), origin) from error
 
 
 def _extended(data: dict[str, Any], origin: str) -> dict[str, Any]:

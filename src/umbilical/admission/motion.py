@@ -11,15 +11,18 @@ import numpy as np
 from umbilical.admission.findings import Finding, amount
 from umbilical.admission.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.errors import Problem
+from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.plant.signals import table_jumps
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
 from umbilical.relations.tension import hanging_of, slack_acceleration, smallest_tension
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.hardware import Cable, Payload
-from umbilical.scenario.signals import Pulse, Step
+from umbilical.scenario.signals import Pulse, Step, Table
 from umbilical.scenario.winch import Cosine, Winch
 
 _SHORTEST, _LONGEST = 1.0, 2e4
+_FASTEST, _HARDEST, _LARGEST_RMS = 5.0, 9.81, 10.0
 _EVEN_SAMPLES, _SAMPLES_PER_PIECE = 4001, 17
 
 # The key a user turns to mend the motion of each law: how fast it goes, and how hard it speeds up.
@@ -121,6 +124,44 @@ def vessel_is_continuous(environment: Environment) -> Iterator[Finding]:
                 "constant, sine, bell or table",
                 "a jump of the vessel would tear the cable's end to another place at once",
                 "a table of the motion, or a bell",
+            )
+    for instant in table_jumps(environment.vessel_motion):
+        yield Problem(
+            "environment.vessel_motion",
+            f"two places at {instant:.6g} s",
+            "one place at each instant",
+            "a jump of the vessel would tear the cable's end to another place at once",
+            "a smooth table",
+        )
+
+
+def vessel_moves_like_one(environment: Environment, duration: float) -> Iterator[Finding]:
+    """A smooth table of the vessel's motion is one of a ship in metres: its size, its speed, its acceleration."""
+    for number, term in enumerate(environment.vessel_motion, start=1):
+        key = f"environment.vessel_motion.{number}"
+        sound = isinstance(term, Table) and len(term.times) == len(term.values) and (np.diff(term.times) > 0.0).all()
+        if not (isinstance(term, Table) and sound and term.interpolation == "smooth"):
+            continue
+        curve, times = signals.spline(term.times, term.values), np.array(term.times)
+        knots = times[(times >= 0.0) & (times <= duration)]
+        for order, (most, unit) in enumerate(((_FASTEST, "m/s"), (_HARDEST, "m/s2")), start=1):
+            found = abs(curve(knots, order))
+            if found.size and found.max() > most:
+                yield Problem(
+                    f"{key}.values",
+                    f"{amount(float(found.max()), unit)} at {knots[int(np.argmax(found))]:.6g} s",
+                    f"at most {most:g} {unit}, the {'speed' if order == 1 else 'acceleration'} of no ship",
+                    "a slip of the unit, a wrong sample or noise that the curve follows",
+                    "look at the values there; millimetres need their unit in the header of the file",
+                )
+        stated = term.file is not None and term.file.unit is not None
+        if (size := float(np.std(term.values))) > _LARGEST_RMS and not stated:
+            yield Problem(
+                f"{key}.values",
+                f"a standard deviation of {amount(size, 'm')}",
+                f"at most {_LARGEST_RMS:g} m",
+                "no vessel on station moves so far; millimetres do",
+                'the unit in the header as it is, e.g. [mm]; drift = "mean"; or file.unit = "m" if it is meant',
             )
 
 

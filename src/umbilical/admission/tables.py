@@ -20,13 +20,15 @@ _FEWEST = 4
 
 
 class TableOf(NamedTuple):
-    """A table of a scenario: key of its section, names of its two lists, and where it must be known, s or x/l."""
+    """A table of a scenario: key of its section, names of its two lists, where it must be known (s or x/l), and
+    whether a point may stand twice, for a jump."""
 
     key: str
     across: str
     values: str
     span: tuple[float, float]
     exact: bool = False
+    jumps: bool = False
 
 
 def table_problems(table: TableOf, points: Sequence[float], count: int) -> Iterator[Finding]:
@@ -40,14 +42,14 @@ def table_problems(table: TableOf, points: Sequence[float], count: int) -> Itera
             "make both lists equally long",
         )
     for number, (a, b) in enumerate(pairwise(points), start=1):
-        if b <= a:
+        if b < a or (b == a and not (table.jumps and (number < 2 or points[number - 2] < a))):
             before, here = apart(a, b)
             yield Problem(
                 f"{table.key}.{table.across}.{number + 1}",
                 here,
                 f"above the one before it, {before}",
                 "the curve runs through increasing points",
-                "sort the table; no point twice",
+                "sort the table; no point twice" + (", but for a jump: twice, no more" if table.jumps else ""),
             )
             return
     yield from _coverage(table, points)

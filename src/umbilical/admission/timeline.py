@@ -180,7 +180,8 @@ def _signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
     for number, term in enumerate(signal, start=1):
         place = f"{key}.{number}"
         if isinstance(term, Table):
-            yield from table_problems(_of_times(place, duration), term.times, len(term.values))
+            table = _of_times(place, duration, jumps=term.interpolation == "linear")
+            yield from table_problems(table, term.times, len(term.values))
         if isinstance(term, Pulse) and term.end <= term.start:
             end, start = apart(term.end, term.start)
             yield Problem(
@@ -199,8 +200,8 @@ def _smooth(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
             yield from smoothness(table, term.times, term.values, _UNITS[key.split(".")[-1]])
 
 
-def _of_times(key: str, duration: float) -> TableOf:
-    return TableOf(key, "times", "values", (0.0, duration))
+def _of_times(key: str, duration: float, *, jumps: bool = False) -> TableOf:
+    return TableOf(key, "times", "values", (0.0, duration), jumps=jumps)
 
 
 def _of_lengths(duration: float) -> TableOf:

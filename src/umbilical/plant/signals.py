@@ -7,6 +7,7 @@ are the same (:mod:`umbilical.relations.instants`).
 from __future__ import annotations
 
 from functools import lru_cache, singledispatch
+from itertools import pairwise
 from typing import Any, Literal
 
 import numpy as np
@@ -168,8 +169,8 @@ def _(term: Pulse, t: Array, side: Side) -> _Part:
 @_value.register
 def _(term: Table, t: Array, side: Side) -> _Part:
     if term.interpolation == "linear":
-        return np.interp(t, term.times, term.values)
-    return spline(term.times, term.values)(t)
+        return _linear(term, t, side)
+    return _curve(term)(t)
 
 
 @singledispatch
@@ -198,10 +199,31 @@ def _square(t: Array, term: Bell) -> Array:
 
 @_slope.register
 def _(term: Table, t: Array, side: Side) -> _Part:
-    if term.interpolation == "smooth":
-        return spline(term.times, term.values)(t, 1)
-    slopes = np.concatenate([[0.0], np.diff(term.values) / np.diff(term.times), [0.0]])
+    if term.interpolation != "linear":
+        return _curve(term)(t, 1)
+    steps = np.diff(term.times)
+    slopes = np.concatenate([[0.0], np.diff(term.values) / np.where(steps > 0.0, steps, 1.0), [0.0]])
     return slopes[passed(term.times, t, side)]
+
+
+def _curve(term: Table) -> Any:
+    return spline(term.times, term.values) if term.interpolation == "smooth" else _monotone(term.times, term.values)
+
+
+@lru_cache(maxsize=64)
+def _monotone(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
+    from scipy.interpolate import PchipInterpolator
+
+    return PchipInterpolator(times, values)
+
+
+def _linear(term: Table, t: Array, side: Side) -> Array:
+    """Line from point to point; at an instant that stands twice, the side says which of both values counts."""
+    found = np.interp(t, term.times, term.values)
+    for k in np.flatnonzero(np.diff(term.times) == 0.0):
+        there = abs(t - term.times[k]) <= slack(term.times[k])
+        found = np.where(there, term.values[k + (side == "right")], found)
+    return found
 
 
 @singledispatch
@@ -222,3 +244,9 @@ def _(term: Pulse) -> tuple[float, ...]:
 @_instants.register
 def _(term: Table) -> tuple[float, ...]:
     return term.times if term.interpolation == "linear" else ()
+
+
+def table_jumps(signal: Signal) -> tuple[float, ...]:
+    """Instants at which a linear table of the signal has two values."""
+    terms = (term for term in signal if isinstance(term, Table))
+    return tuple(a for term in terms for a, b in pairwise(term.times) if a == b)

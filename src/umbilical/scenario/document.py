@@ -191,6 +191,9 @@ def json_schema() -> Data:
     schema = Scenario.model_json_schema()
     required = schema["required"]
     schema = _relaxed(schema)
+    for definition in schema["$defs"].values():
+        if "file" in definition.get("properties", {}):
+            definition["properties"]["file"]["anyOf"].insert(0, {"type": "string"})  # its name alone
     schema["properties"]["extends"] = {"type": "string", "description": "preset that this scenario changes"}
     schema["anyOf"] = [{"required": ["extends"]}, {"required": required}]
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}

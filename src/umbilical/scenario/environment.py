@@ -8,6 +8,7 @@ from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
 from umbilical.scenario.signals import Signal
+from umbilical.scenario.source import FromFile, from_file
 
 
 class UniformProfile(Record):
@@ -37,6 +38,7 @@ class TableProfile(Record):
     shape: Literal["table"]
     positions: tuple[Number, ...] = Field(min_length=2, description="increasing sigma, from 0 to 1")
     values: tuple[Number, ...] = Field(min_length=2, description="share of the signal at each position")
+    file: FromFile | None = from_file("positions", "values", "1", "1")
 
 
 Profile = Annotated[UniformProfile | SineProfile | GaussianProfile | TableProfile, Field(discriminator="shape")]
@@ -109,6 +111,7 @@ class TableShape(Record):
     shape: Literal["table"]
     positions: tuple[Number, ...] = Field(min_length=4, description="increasing sigma, from 0 to 1")
     displacements: tuple[Number, ...] = Field(min_length=4, description="displacement at each position, m")
+    file: FromFile | None = from_file("positions", "displacements", "1", "m")
 
 
 InitialShape = Annotated[Straight | SineShape | GaussianShape | StaticShape | TableShape, Field(discriminator="shape")]

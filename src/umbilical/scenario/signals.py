@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.source import FromFile, from_file
 
 
 class Constant(Record):
@@ -55,15 +56,19 @@ class Pulse(Record):
 
 
 class Table(Record):
-    """Values at times, with a smooth (cubic, twice differentiable) or linear curve between them.
+    """Values at times, with a smooth (cubic, twice differentiable), monotone (PCHIP) or linear curve between them.
 
-    A smooth curve may leave its data by 5 % of their range at most; it is told from 1 % on.
+    A smooth curve may leave its data by 5 % of their range at most; it is told from 1 % on. Where a linear table has
+    an instant twice, it jumps.
     """
 
     kind: Literal["table"]
     times: tuple[Number, ...] = Field(min_length=2, description="increasing instants, s; they must cover the run")
     values: tuple[Number, ...] = Field(min_length=2, description="value at each instant")
-    interpolation: Literal["smooth", "linear"] = Field(default="smooth", description="curve between the instants")
+    interpolation: Literal["smooth", "pchip", "linear"] = Field(
+        default="smooth", description="curve between the instants"
+    )
+    file: FromFile | None = from_file("times", "values")
 
 
 Term = Annotated[Constant | Sine | Bell | Step | Pulse | Table, Field(discriminator="kind")]

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.source import FromFile, from_file
 
 _SHORTEST = {
     "ge": 1.0,
@@ -72,6 +73,7 @@ class TabulatedLength(Record):
     law: Literal["table"]
     times: tuple[Number, ...] = Field(min_length=4, description="increasing instants, s; they must cover the run")
     lengths: tuple[Number, ...] = Field(min_length=4, description="cable length at each instant, m")
+    file: FromFile | None = from_file("times", "lengths", unit="m")
 
 
 Winch = Annotated[
