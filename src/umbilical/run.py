@@ -47,6 +47,18 @@ CONVENTION = (
 SECOND_DIMENSION = {name: q.over for name, q in CHANNELS.items() if q.over}
 """What a channel depends on besides time; a channel not named here depends on time alone."""
 
+PEAKS = {
+    "tip_displacement": "tip_peak",
+    "slope": "slope_peak",
+    "thrust": "thrust_peak",
+    "motor_speed": "motor_speed_peak",
+    "motor_voltage": "motor_voltage_peak",
+    "motor_current": "motor_current_peak",
+}
+"""Channels and the metric that none of their samples exceeds, for metrics are of every control sample."""
+LARGEST_STORED = 1e100
+"""No number of a completed run is larger."""
+
 _METRIC = "metric_"
 _LOGGED = "controller_"
 _OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
@@ -108,7 +120,7 @@ class Run:
     @property
     def notices(self) -> tuple[str, ...]:
         """What the user should know about this run."""
-        return (*json.loads(self.data.attrs["notices"]), *self._cut())
+        return (*json.loads(self.data.attrs["notices"]), *self._cut(), *self._other_scenario())
 
     @property
     def metrics(self) -> dict[str, float]:
@@ -120,6 +132,12 @@ class Run:
         """What must be said of a part of a run: its metrics are not the part's own."""
         left, of = self.data.sizes["time"], stated_sizes(self.data)["time"]
         return (f"{left} of {of} samples are left; the metrics are those of the whole run",) * (left < of)
+
+    def _other_scenario(self) -> tuple[str, ...]:
+        """What must be said where the scenario is not the one that was simulated."""
+        was, now = self.data.attrs["scenario_hash"], self.scenario.hash
+        told = f"the scenario inside is {now[:12]} and the run was of {was[:12]}: it was changed, or is read otherwise"
+        return (f"{told} by this version",) * (was != now)
 
     def __repr__(self) -> str:
         sizes = ", ".join(f"{name} {size}" for name, size in self.data.sizes.items())
@@ -271,9 +289,11 @@ def open_run(path: str | os.PathLike[str]) -> Run:
 
     data = _of_a_run(path)
     try:
-        return Run(data, parse(data.attrs["scenario"], f"{path}: the scenario inside"))
+        scenario = parse(data.attrs["scenario"], f"{path}: the scenario inside")
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
+    refuse(_wrong_times(data, scenario.duration), str(path))
+    return Run(data, scenario)
 
 
 def scenario_text(path: str | os.PathLike[str]) -> str:
@@ -305,6 +325,30 @@ def _wrong_arrays(data: xarray.Dataset) -> Iterator[str]:
             yield wrong_array(data[name], (), "f")
         elif name in data.sizes:
             yield wrong_array(data[name], (name,), "fiu")
-    times = data["time"].values
-    if times.dtype.kind == "f" and not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
-        yield "time: must be finite and increase"
+    if data.attrs["status"] == Status.COMPLETED.name:
+        yield from _wrong_values(data)
+    for name in sorted({"time", "sigma"} & set(data.coords)):
+        places = data[name].values
+        if places.dtype.kind == "f" and not (np.isfinite(places).all() and (np.diff(places) > 0.0).all()):
+            yield f"{name}: must be finite and increase"
+
+
+def _wrong_values(data: xarray.Dataset) -> Iterator[str]:
+    """What no run has that was completed: infinite numbers, metrics that are none, samples beyond their own metric."""
+    for name in map(str, data.data_vars):
+        largest = np.abs(data[name].values).max(initial=0.0) if data[name].dtype.kind == "f" else 0.0
+        metric = _METRIC + PEAKS.get(name, "")
+        if largest > LARGEST_STORED or (name.startswith(_METRIC) and np.isnan(largest)):
+            yield f"{name}: reaches {largest:g}, which no completed run does"
+        elif metric in data.variables and not largest <= (limit := float(data[metric])) * (1.0 + 1e-9):
+            yield f"{name}: reaches {largest:g}, and {PEAKS[name]} is {limit:g}"
+
+
+def _wrong_times(data: xarray.Dataset, duration: float) -> Iterator[str]:
+    """What of the instants contradicts the end of the run, or that the scenario's duration, s."""
+    end, last = float(data.attrs["end_time"]), data["time"].values[-1:]
+    over = data.attrs["status"] == Status.COMPLETED.name
+    if end > duration * (1.0 + 1e-9) or (over and end < duration * (1.0 - 1e-9)):
+        yield f"end_time = {end:g}: {data.attrs['status']}, and the scenario inside lasts {duration:g} s"
+    elif (last > end * (1.0 + 1e-9)).any():
+        yield f"time: goes on to {last[0]:g} s, and end_time is {end:g} s"

@@ -158,6 +158,25 @@ def test_margins_as_text_name_the_worst_margin_and_three_modes(umbilical_command
     assert first.count(",") == 4
 
 
+def test_margins_name_what_the_linear_loop_leaves_out(umbilical_command):
+    plain = margins(RINGDOWN, [100.0])
+    assert plain.limits == ()
+    changed = {
+        "sensors.tip_displacement.dropout": ("noise, resolution and drop-outs of the sensors", 0.3),
+        "sensors.motor_speed.resolution": ("noise, resolution and drop-outs of the sensors", 0.1),
+        "motors.2.voltage_limit": ("voltage limits of the drives", 8.0),
+    }
+    for key, (words, value) in changed.items():
+        assert replace(plain, scenario=umbilical.load("ringdown", {key: value})).limits == (words,)
+    assert replace(plain, scenario=umbilical.load("paper-dead")).limits == ("faults",)
+    adaptive = umbilical.load("paper-adaptive")
+    assert replace(plain, scenario=adaptive).limits == ("the adaptive law, which stays as it starts",)
+    biased = RINGDOWN.replace({"sensors.tip_slope.bias": 1e-3, "sensors.tip_slope.latency": 1e-3})
+    assert replace(plain, scenario=biased).limits == ()
+    told = umbilical_command("margins", "paper-dead", "--lengths", "100", "--grid", "0").out
+    assert told.splitlines()[-1] == "  outside these margins: faults"
+
+
 def test_circles_hold_the_loop_and_its_resonances_touch_them():
     swept = judge(RINGDOWN, 400.0).sweep
     centre, radius = swept.circles()
@@ -179,7 +198,11 @@ def test_margins_on_the_command_line(umbilical_command):
     assert found["resolved"] is None
     assert (found["verdict"], found["exit_code"], done.code) == ("HOLDS", 0, 0)
     assert umbilical_command("margins", "ringdown", "--lengths", "long").code == 2
-    assert umbilical_command("margins", "ringdown", "--grid", "").code == 2
+    assert found["limits"] == ["the winch's motion, each length stands still"]
+    for wrong in ("", "inf", "nan", "32,1e999"):
+        assert umbilical_command("margins", "ringdown", "--grid", wrong).code == 2
+    for wrong in ("nan", "inf", "-1"):
+        assert umbilical_command("design", "ringdown", f"--gain-margin={wrong}").code == 2
     assert umbilical_command("design", "ringdown", "--limits", "loudness=3").code == 2
 
 

@@ -122,3 +122,18 @@ def test_the_last_sample_is_stored_even_between_intervals() -> None:
     longer = umbilical.simulate(small("paper", duration=0.035, output__interval=0.005))
     np.testing.assert_array_equal(result["displacement"].values[-1], longer["displacement"].values[-1])
     assert result["tip_displacement"].values[-1] == result.metrics["tip_end"]
+
+
+def test_a_grid_that_takes_much_of_the_energy_is_told() -> None:
+    """The vessel's velocity jumps at the points of a linear table: a front as sharp as the grid lets it be."""
+    times, values = [0.25 * k for k in range(25)], [0.5 * (k % 2) for k in range(25)]
+    table = {"kind": "table", "times": times, "values": values, "interpolation": "linear"}
+    sine = {"kind": "sine", "amplitude": 0.5, "frequency": 0.7, "phase": 0.0}
+    told = {}
+    for motion in (sine, table):
+        changes = {"duration": 6.0, "grid.elements": 8, "environment.vessel_ramp": 1.0}
+        scenario = umbilical.load("crosscheck-none", changes | {"environment.vessel_motion": [motion]})
+        told[motion["kind"]] = umbilical.simulate(scenario)
+    assert told["sine"].metrics["grid_loss"] < 0.1 < told["table"].metrics["grid_loss"]
+    assert told["sine"].notices == ()
+    assert told["table"].notices[-1].startswith("grid.elements: the grid took ")

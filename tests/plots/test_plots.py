@@ -139,6 +139,8 @@ def test_a_run_without_samples_is_refused_in_words(run, name):
     empty = Run(run.data.isel(time=slice(0, 0)), run.scenario)
     with pytest.raises(ValueError, match=r"ended before there was anything to draw|estimated"):
         SINGLE[name](empty)
+    with pytest.raises(ValueError, match="ended before there was anything to draw"):
+        plots.plot_overview(empty)
 
 
 @pytest.mark.parametrize("kind", ["png", "pdf", "svg"])

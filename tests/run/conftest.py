@@ -42,7 +42,7 @@ def make_run(motors: int = 2, samples: int = 21, **changes) -> Run:
     rng = np.random.default_rng(1)
     channels = {
         "displacement": rng.normal(size=(samples, 9)),
-        "tip_displacement": rng.normal(size=samples),
+        "tip_displacement": np.tanh(rng.normal(size=samples)),
         "motor_speed": rng.normal(size=(samples, motors)),
         "kappa": rng.normal(size=(samples, motors + 1)),
     }

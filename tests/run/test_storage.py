@@ -42,7 +42,7 @@ def test_no_dimension_is_dropped_on_the_way(make_run, tmp_path, motors):
 
 
 def test_not_a_number_and_infinity_survive(make_run, tmp_path):
-    run = make_run(metrics={"tip_peak": np.inf, "tip_rms": np.nan})
+    run = make_run(status=Status.DIVERGED, metrics={"tip_peak": np.inf, "tip_rms": np.nan})
     assert open_run(run.save(tmp_path / "a.nc")).data.identical(run.data)
 
 
@@ -86,9 +86,9 @@ def test_the_scenario_can_be_read_alone(run, stored):
 def test_never_overwrites_unasked(run, make_run, stored):
     before = stored.read_bytes()
     with pytest.raises(OutputError, match="exists already"):
-        make_run(end_time=0.5).save(stored)
+        make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.5, 21), end_time=0.5).save(stored)
     assert stored.read_bytes() == before
-    make_run(end_time=0.5).save(stored, force=True)
+    make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.5, 21), end_time=0.5).save(stored, force=True)
     assert open_run(stored).end_time == 0.5
 
 
@@ -196,7 +196,7 @@ def test_a_changed_attribute_is_named(run, tmp_path, name, value):
     data.attrs = attributes if value is None else attributes | {name: value}
     path.write_bytes(_netcdf(data))
     free = name in ("title", "convention", "scenario_hash", "reason", "version_numpy")
-    if (free and isinstance(value, str)) or (name == "end_time" and isinstance(value, float)):
+    if free and isinstance(value, str):
         assert open_run(path).data.attrs[name] == value
     else:
         with pytest.raises(FileError, match=re.escape(f"{path}: ")):
@@ -211,6 +211,10 @@ def test_what_was_taken_out_is_named(run, tmp_path, name):
         open_run(path)
 
 
+def _scaled(data, name, factor):
+    return data.assign({name: data[name].copy(data=data[name].values * factor)})
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
@@ -220,6 +224,15 @@ def test_what_was_taken_out_is_named(run, tmp_path, name):
         (lambda data: data.isel(time=[4, 3]), "time: must be finite and increase"),
         (lambda data: data.assign(displacement=data["displacement"].T), r"displacement: is over \(sigma, time\)"),
         (lambda data: data.assign(kappa=data["kappa"].astype(str)), "kappa: holds"),
+        (lambda data: data.assign_coords(sigma=data["sigma"] * np.nan), "sigma: must be finite and increase"),
+        (lambda data: data.assign_coords(time=2.0 * data["time"]), "time: goes on to 2 s, and end_time is 1 s"),
+        (lambda data: data.assign_attrs(end_time=0.5), "end_time = 0.5: COMPLETED, and the scenario inside lasts 1 s"),
+        (lambda data: data.assign_attrs(end_time=2.0, status="DIVERGED"), "end_time = 2: DIVERGED, and the scenario"),
+        (lambda data: _scaled(data, "tip_displacement", 2.0), "tip_displacement: reaches 1.9.*, and tip_peak is 1.25"),
+        (lambda data: _scaled(data, "tip_displacement", np.nan), "tip_displacement: reaches nan, and tip_peak"),
+        (lambda data: _scaled(data, "displacement", 1e300), "displacement: reaches .*300, which no completed run does"),
+        (lambda data: _scaled(data, "kappa", np.inf), "kappa: reaches inf, which"),
+        (lambda data: _scaled(data, "metric_effort_rms", np.nan), "metric_effort_rms: reaches nan, which"),
         (lambda data: data.assign(tip_displacement=data["tip_displacement"].assign_attrs(units=5)), "units must be"),
     ],
 )
@@ -228,6 +241,12 @@ def test_arrays_that_are_not_those_of_a_run_are_named(run, tmp_path, change, wor
     path.write_bytes(_netcdf(change(run.data)))
     with pytest.raises(FileError, match=rf"other\.nc: (.|\n)*{words}"):
         open_run(path)
+
+
+def test_a_scenario_that_is_not_the_one_that_was_simulated_is_told(run, tmp_path):
+    path = tmp_path / "other.nc"
+    path.write_bytes(_netcdf(run.data.assign_attrs(scenario_hash="0" * 64)))
+    assert f"is {run.scenario.hash[:12]} and the run was of 000000000000" in open_run(path).notices[-1]
 
 
 def test_metrics_of_a_part_are_marked_as_those_of_the_whole_run(run, tmp_path):

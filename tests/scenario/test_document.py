@@ -15,9 +15,10 @@ from hypothesis import strategies as st
 from umbilical.admission import load, preset_names, preset_text
 from umbilical.errors import FileError, ScenarioError
 from umbilical.scenario import document
-from umbilical.scenario.fields import records
+from umbilical.scenario.fields import records, word
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.text import literal
+from umbilical.screening.operation import Operation
 
 PUBLISHED = Path(__file__).parents[2] / "docs" / "scenario.schema.json"
 
@@ -229,3 +230,19 @@ def test_a_name_that_is_only_half_alike_is_not_suggested() -> None:
     with pytest.raises(ScenarioError) as caught:
         load("paper", {"motors.1.voltage_limt": 5.0})
     assert caught.value.problems[0].cure == "did you mean 'voltage_limit'?"
+
+
+def _fields(record):
+    for field in record.model_fields.values():
+        yield field
+        for part in records(field.annotation):
+            yield from _fields(part)
+
+
+@pytest.mark.parametrize("record", [Scenario, Operation])
+def test_no_cure_is_a_mere_unit(record):
+    """Who reads "cure: kg" knows no more than before; without a cure the bounds are told."""
+    given = [(word(field, "unit"), word(field, "cure")) for field in _fields(record)]
+    spelt = {"seconds", "metres", "newton", "ohm", "kilograms", "volts"}
+    assert len(given) > 20
+    assert [cure for unit, cure in given if cure and (cure == unit or cure in spelt)] == []

@@ -63,8 +63,8 @@ def design(
     from umbilical.design.design import design as compute
     from umbilical.design.score import Demands
 
-    if gain < 0.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
-        raise BadParameter("margins are 0 dB or more, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
+    if not 0.0 <= gain <= 100.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
+        raise BadParameter("margins are 0 to 100 dB, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
     demands = Demands(10.0 ** (gain / 20.0), math.radians(phase), delay)
     announce_compilation()
     with bar("designing") as advance:

@@ -101,14 +101,17 @@ def _numbers(words: str | None, option: str = "--lengths") -> list[float] | None
     """Comma-separated numbers.
 
     Raises:
-        BadParameter: something between the commas is not a number.
+        BadParameter: something between the commas is not a finite number.
     """
     if words is None:
         return None
     try:
-        return [float(word) for word in words.split(",")]
-    except ValueError as error:
-        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint=option) from error
+        found = [float(word) for word in words.split(",")]
+    except ValueError:
+        found = [math.nan]
+    if not all(map(math.isfinite, found)):
+        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint=option)
+    return found
 
 
 def _draw(report: MarginReport, plot: Path | None, force: bool) -> dict[str, str]:
@@ -132,6 +135,7 @@ def document(report: MarginReport) -> dict[str, Any]:
         "resolved": report.resolved,
         "controller": report.controller or None,
         "doubt": report.doubt or None,
+        "limits": report.limits,
         "grids": [
             {
                 "elements": g.elements,
@@ -182,7 +186,8 @@ def text(report: MarginReport) -> str:
         thrust += f"; {report.controller} linearised with the ROV at rest"
     lines = [thrust, table(rows(report), right=range(7))]
     lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
-    return "\n".join(lines + _grids(report))
+    outside = f"  outside these margins: {'; '.join(report.limits) or 'nothing'}"
+    return "\n".join([*lines, *_grids(report), outside])
 
 
 def _grids(report: MarginReport) -> list[str]:

@@ -144,7 +144,8 @@ def values(text: str, option: str, low: float, high: float) -> np.ndarray:
             start, stop, count = text.split(":")
             if not 2 <= int(count) <= 1000:
                 raise BadParameter(f"{text}: 2 to 1000 values", param_hint=f"'{option}'")
-            found = np.linspace(float(start), float(stop), int(count))
+            with np.errstate(invalid="ignore"):
+                found = np.linspace(float(start), float(stop), int(count))
         else:
             found = np.array([float(part) for part in text.split(",")])
     except ValueError as error:

@@ -17,6 +17,7 @@ from umbilical.design.matrix import MatrixCheck
 from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.sensors import Channel
 
 T = TypeVar("T")
 
@@ -69,6 +70,20 @@ class MarginReport:
         if len(self.grids) < 3 or self.check is None:
             return None
         return resolved(self.grids) and self.check.agrees
+
+    @property
+    def limits(self) -> tuple[str, ...]:
+        """What this scenario has and its linearised loop has not."""
+        scenario, motors = self.scenario, () if self.scenario.ideal_thruster else self.scenario.motors
+        channels = [getattr(scenario.sensors, name) for name in type(scenario.sensors).model_fields]
+        outside = {
+            "the winch's motion, each length stands still": len(self.judgements) > 1,
+            "voltage limits of the drives": any(motor.voltage_limit is not None for motor in motors),
+            "noise, resolution and drop-outs of the sensors": any(map(_uncertain, channels)),
+            "faults": bool(scenario.faults),
+            "the adaptive law, which stays as it starts": scenario.control.allocation.method == "adaptive",
+        }
+        return tuple(name for name, present in outside.items() if present)
 
 
 def margins(
@@ -129,6 +144,11 @@ def margins(
     return MarginReport(scenario, thrust, found, tuple(grids), checked, name)
 
 
+def _uncertain(channel: Channel | bool) -> bool:
+    """Whether a sensor errs in a way that has no linear part; a bias moves the loop, and latency is in it."""
+    return isinstance(channel, Channel) and any((channel.noise, channel.resolution, channel.dropout))
+
+
 def _as_lengths(scenario: Scenario, lengths: Sequence[float]) -> tuple[float, ...]:
     """Lengths as numbers, m.
 
@@ -167,15 +187,17 @@ def check_request(scenario: Scenario, lengths: Sequence[float], thrust: float, e
         ScenarioError: with every problem.
     """
     problems = [
-        Problem("--lengths", f"{length:g} m", "above 0, at most 20000 m", "a cable has a length", "e.g. 300,400")
+        Problem("lengths", f"{length:g} m", "above 0, at most 20000 m", "a cable has a length", "e.g. 300,400")
         for length in lengths
         if not 0.0 < length <= 2e4
     ]
+    if not lengths:
+        problems.append(Problem("lengths", "none", "one or more", "a loop has a cable of some length", "e.g. 300,400"))
     if not 0.0 < abs(thrust) <= 1e9:
         reason = "at no thrust a propeller has none to first order, and the loop is open"
-        problems.append(Problem("--operating-thrust", f"{thrust:g} N", "not 0, at most 1e9 N", reason, "e.g. 50"))
+        problems.append(Problem("operating_thrust", f"{thrust:g} N", "not 0, at most 1e9 N", reason, "e.g. 50"))
     problems += [
-        Problem("--grid", f"{number}", "4 to 1000 elements", "a grid needs elements, and memory", "e.g. 32,64,128")
+        Problem("grid", f"{number}", "4 to 1000 elements", "a grid needs elements, and memory", "e.g. 32,64,128")
         for number in elements
         if not 4 <= number <= 1000
     ]

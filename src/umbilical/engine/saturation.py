@@ -80,7 +80,7 @@ def _runaway(scenario: Scenario, tally: Tally) -> Iterator[Notice]:
     found = tally.measures[0]
     gap, commanded, delivered = (root_mean_square(tally, m) for m in (found.gap, found.command, found.thrust))
     if peak > RUNAWAY * capability:
-        given = f"of thrusters that give {capability:.3g} N at their voltage limits"
+        given = f"of thrusters that give {capability:.3g} N steadily at their voltage limits"
         yield Notice("control", f"a thrust of up to {peak:.3g} N was commanded {given}")
     elif gap > UNDELIVERED * delivered:
         yield Notice(

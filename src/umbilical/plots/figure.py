@@ -43,11 +43,20 @@ def axes_for(run: Run, ax: Axes | None) -> Axes:
     Raises:
         ValueError: the run ended before there was anything to draw.
     """
-    if run["time"].size < 2:
-        raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
+    check_drawable(run)
     if ax is not None:
         return ax
     return _shown_in_notebooks(new_figure(8.0, 4.0).add_subplot())
+
+
+def check_drawable(run: Run) -> None:
+    """Refuse a run of which there is no curve.
+
+    Raises:
+        ValueError: the run ended before there was anything to draw.
+    """
+    if run["time"].size < 2:
+        raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
 
 
 def new_figure(width: float, height: float) -> Figure:

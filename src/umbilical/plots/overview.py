@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from umbilical.plots.cable import plot_cable, plot_positions
 from umbilical.plots.energy import plot_energy
-from umbilical.plots.figure import new_figure
+from umbilical.plots.figure import check_drawable, new_figure
 from umbilical.plots.motors import adapted, plot_allocation, plot_motors
 from umbilical.plots.observers import estimated, plot_observers
 from umbilical.plots.tip import plot_thrust, plot_tip
@@ -24,7 +24,12 @@ SHOWN_MOTORS = 4
 
 
 def plot_overview(run: Run) -> Figure:
-    """Everything worth a first look on one page; what the run does not have gets no panel."""
+    """Everything worth a first look on one page; what the run does not have gets no panel.
+
+    Raises:
+        ValueError: the run ended before there was anything to draw.
+    """
+    check_drawable(run)
     motors = driven(run)
     panels: list[Panel] = [plot_tip, plot_cable, plot_positions]
     panels += [plot_thrust] if bool(run["thrust"].any()) else []

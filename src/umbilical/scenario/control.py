@@ -166,10 +166,10 @@ class MotorLoop(Record):
 class Nominal(Record):
     """What the controller believes where it differs from the truth; what is left out is the truth."""
 
-    payload_mass: float | None = quantity("payload_mass", None, gt=0.0, le=1e9, reason="it divides", cure="kg")
-    payload_wet_weight: float | None = quantity("wet_weight", None, gt=0.0, reason="as the truth", cure="newton")
+    payload_mass: float | None = quantity("payload_mass", None, gt=0.0, le=1e9, reason="it divides")
+    payload_wet_weight: float | None = quantity("wet_weight", None, gt=0.0, reason="as the truth")
     payload_damping: float | None = quantity("payload_damping", None, ge=0.0, reason="as the truth", cure="0 or more")
-    gravity: float | None = quantity("gravity", None, gt=0.0, le=100.0, reason="as the truth", cure="m/s2")
+    gravity: float | None = quantity("gravity", None, gt=0.0, le=100.0, reason="as the truth")
     thrust_coefficients: tuple[Number, ...] | None = Field(
         default=None, description="believed K_T of each motor, N s2/rad2"
     )

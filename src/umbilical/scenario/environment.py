@@ -95,7 +95,7 @@ class GaussianShape(Record):
     distance: float = quantity(
         "shape_distance", ge=0.0, le=2e4, reason="metres up from the ROV", cure="between 0 and the length"
     )
-    width: float = quantity("shape_width", gt=0.0, le=2e4, reason="it divides the distance", cure="metres")
+    width: float = quantity("shape_width", gt=0.0, le=2e4, reason="it divides the distance")
 
 
 class StaticShape(Record):

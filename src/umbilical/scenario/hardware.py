@@ -24,7 +24,7 @@ class Cable(Record):
 class Payload(Record):
     """The ROV, a point mass at the cable's lower end."""
 
-    mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the ROV resists acceleration with it", cure="kg")
+    mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the ROV resists acceleration with it")
     wet_weight: float | None = quantity(
         "wet_weight", None, gt=0.0, cure="newton, not kg; left out it weighs m g as in air",
         reason="under a ROV that floats the cable is slack, which is no string: that needs a full model of the cable",
@@ -37,12 +37,12 @@ class Motor(Record):
 
     inertia: float = quantity("inertia", gt=0.0, reason="it divides the torque", cure="kg m2, rotor and propeller")
     viscous_friction: float = quantity("viscous_friction", ge=0.0, reason="friction takes energy", cure="0 or more")
-    torque_constant: float = quantity("torque_constant", gt=0.0, reason="the current must turn the shaft", cure="N m/A")
+    torque_constant: float = quantity("torque_constant", gt=0.0, reason="the current must turn the shaft")
     load_coefficient: float = quantity("load_coefficient", ge=0.0, reason="the propeller brakes", cure="0 or more")
-    resistance: float = quantity("resistance", gt=0.0, reason="it limits the current of a stalled motor", cure="ohm")
+    resistance: float = quantity("resistance", gt=0.0, reason="it limits the current of a stalled motor")
     inductance: float = quantity("inductance", gt=0.0, reason="it divides the voltage", cure="henry, above 0")
-    back_emf_constant: float = quantity("back_emf_constant", ge=0.0, reason="the EMF opposes the drive", cure="V s/rad")
-    thrust_coefficient: float = quantity("thrust_coefficient", reason="either sign, not 0", cure="N s2/rad2")
+    back_emf_constant: float = quantity("back_emf_constant", ge=0.0, reason="the EMF opposes the drive")
+    thrust_coefficient: float = quantity("thrust_coefficient", reason="either sign, not 0")
     voltage_limit: float | None = quantity(
         "voltage_limit", None, gt=0.0, reason="the drive is clipped at plus and minus it", cure="leave out for none"
     )

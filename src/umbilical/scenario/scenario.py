@@ -47,7 +47,7 @@ class Scenario(Record):
     schema_version: Literal[1] = Field(default=1, description="version of this format")
     name: str = Field(min_length=1, max_length=80, description="short name, also of the result file")
     description: str = Field(default="", description="what it shows, in a sentence")
-    duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time", cure="seconds")
+    duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time")
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
     ideal_thruster: bool = Field(default=False, description="deliver the commanded thrust as it is, without motors")
     cable: Cable

@@ -53,8 +53,8 @@ class Trapezoid(Record):
     law: Literal["trapezoid"]
     start_length: float = quantity("winch_start_length", **_SHORTEST)
     end_length: float = quantity("winch_end_length", **_SHORTEST)
-    top_speed: float = quantity("winch_top_speed", gt=0.0, reason="the direction follows from the lengths", cure="m/s")
-    acceleration: float = quantity("winch_acceleration", gt=0.0, reason="it divides the speed", cure="m/s2")
+    top_speed: float = quantity("winch_top_speed", gt=0.0, reason="the direction follows from the lengths")
+    acceleration: float = quantity("winch_acceleration", gt=0.0, reason="it divides the speed")
     start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
 
 

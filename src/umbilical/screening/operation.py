@@ -24,7 +24,7 @@ class HangingCable(Record):
     """The umbilical in line with its tension."""
 
     line_density: float = measured(
-        "kg/m", "dry line density, flooded water included", gt=0.0, le=1e3, reason="it carries axial waves", cure="kg/m"
+        "kg/m", "dry line density, flooded water included", gt=0.0, le=1e3, reason="it carries axial waves"
     )
     wet_line_density: float = measured(
         "kg/m", "line density less the displaced water", gt=0.0, le=1e3,
@@ -46,8 +46,8 @@ class HangingCable(Record):
 class HangingBody(Record):
     """What hangs at the end: a TMS with its ROV, a cage or a clump."""
 
-    mass: float = measured("kg", "dry mass", gt=0.0, le=1e7, reason="it has inertia", cure="kg")
-    added_mass: float = measured("kg", "added mass in heave", ge=0.0, le=1e7, reason="water moves with it", cure="kg")
+    mass: float = measured("kg", "dry mass", gt=0.0, le=1e7, reason="it has inertia")
+    added_mass: float = measured("kg", "added mass in heave", ge=0.0, le=1e7, reason="water moves with it")
     wet_weight: float = measured(
         "N", "weight in water", gt=0.0, le=1e8, reason="a body that floats does not pull the cable taut",
         cure="newton, not kilogram: mass in water times g",
@@ -62,26 +62,22 @@ class BoxShip(Record):
     """A vessel by the closed form of Jensen, Mansour and Olsen, and where its sheave is."""
 
     kind: Literal["box"] = "box"
-    length: float = measured("m", "length at the waterline", gt=0.0, le=500.0, reason="a ship", cure="metres")
-    breadth: float = measured("m", "breadth at the waterline", gt=0.0, le=100.0, reason="a ship", cure="metres")
-    draught: float = measured("m", "draught", gt=0.0, le=30.0, reason="a ship", cure="metres")
+    length: float = measured("m", "length at the waterline", gt=0.0, le=500.0, reason="a ship")
+    breadth: float = measured("m", "breadth at the waterline", gt=0.0, le=100.0, reason="a ship")
+    draught: float = measured("m", "draught", gt=0.0, le=30.0, reason="a ship")
     block_coefficient: float = measured(
         "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9"
     )
-    sheave_forward: float = measured(
-        "m", "sheave forward of midship", 0.0, ge=-500.0, le=500.0, reason="pitch", cure="m"
-    )
-    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll", cure="m")
+    sheave_forward: float = measured("m", "sheave forward of midship", 0.0, ge=-500.0, le=500.0, reason="pitch")
+    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll")
 
 
 class HeaveCompensation(Record):
     """A winch that follows the measured heave: residual |1 - k e^(-i w tau) H(w)|, H of second order."""
 
     gain: float = measured("1", "share of the heave it follows", 1.0, ge=0.0, le=1.0, reason="a share", cure="0 to 1")
-    lag: float = measured("s", "delay of measurement and drive", ge=0.0, le=5.0, reason="a delay", cure="seconds")
-    bandwidth: float = measured(
-        "rad/s", "natural frequency of the drive", gt=0.0, le=1e3, reason="a drive", cure="rad/s"
-    )
+    lag: float = measured("s", "delay of measurement and drive", ge=0.0, le=5.0, reason="a delay")
+    bandwidth: float = measured("rad/s", "natural frequency of the drive", gt=0.0, le=1e3, reason="a drive")
     damping: float = measured("1", "damping ratio of the drive", 0.7, gt=0.0, le=10.0, reason="a drive", cure="0.7")
 
 
