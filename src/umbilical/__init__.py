@@ -15,7 +15,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from umbilical.admission import load, preset_names
     from umbilical.analysis.certificate import Certificate, certify
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.design.margins import margins
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from umbilical.interop.c_code import to_c
     from umbilical.interop.fmu import to_fmu
     from umbilical.interop.python_control import to_control
+    from umbilical.library import load, preset_names
     from umbilical.plots import (
         plot_cable,
         plot_certificate,
@@ -63,7 +63,7 @@ _HOMES = {
     "Study": "umbilical.studies.study",
     "StudyResult": "umbilical.studies.results",
     "certify": "umbilical.analysis.certificate",
-    "load": "umbilical.admission",
+    "load": "umbilical.library",
     "load_operation": "umbilical.screening",
     "load_study": "umbilical.studies.load",
     "lower": "umbilical.screening",
@@ -84,7 +84,7 @@ _HOMES = {
     "plot_positions": "umbilical.plots",
     "plot_study": "umbilical.plots",
     "plot_tip": "umbilical.plots",
-    "preset_names": "umbilical.admission",
+    "preset_names": "umbilical.library",
     "simulate": "umbilical.engine.simulate",
     "sweep": "umbilical.studies.sweep",
     "to_c": "umbilical.interop.c_code",

@@ -38,13 +38,13 @@ def test_bad_input(umbilical, arguments, code, words):
     "error", [OutputError("disk full"), ControllerError("it broke"), MissingPartnerError("control")]
 )
 def test_every_error_of_ours_ends_with_its_exit_code(umbilical, monkeypatch, error):
-    monkeypatch.setattr("umbilical.admission.load", _raiser(error))
+    monkeypatch.setattr("umbilical.library.load", _raiser(error))
     done = umbilical("run", "paper")
     assert (done.code, done.err) == (error.exit_code, f"umbilical: {error}\n")
 
 
 def test_an_unexpected_error_is_called_a_bug_of_ours(umbilical, monkeypatch):
-    monkeypatch.setattr("umbilical.admission.load", _raiser(ZeroDivisionError("oops")))
+    monkeypatch.setattr("umbilical.library.load", _raiser(ZeroDivisionError("oops")))
     done = umbilical("run", "paper", "--json")
     assert done.code == 1
     assert "ZeroDivisionError: oops" in done.err
@@ -56,14 +56,14 @@ def test_an_unexpected_error_is_called_a_bug_of_ours(umbilical, monkeypatch):
 
 @pytest.mark.parametrize("arguments", [("--debug", "run", "paper"), ("run", "paper", "--debug")])
 def test_debug_shows_the_traceback(umbilical, monkeypatch, arguments):
-    monkeypatch.setattr("umbilical.admission.load", _raiser(ZeroDivisionError("oops")))
+    monkeypatch.setattr("umbilical.library.load", _raiser(ZeroDivisionError("oops")))
     done = umbilical(*arguments)
     assert done.code == 1
     assert "Traceback" in done.err
 
 
 def test_an_interruption_outside_a_run(umbilical, monkeypatch):
-    monkeypatch.setattr("umbilical.admission.load", _raiser(KeyboardInterrupt()))
+    monkeypatch.setattr("umbilical.library.load", _raiser(KeyboardInterrupt()))
     done = umbilical("run", "paper")
     assert (done.code, done.err) == (130, "umbilical: interrupted\n")
 

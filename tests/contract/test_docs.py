@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 import umbilical
-from umbilical.admission.examine import admit_data
-from umbilical.admission.load import preset_text
+from umbilical.library.admit import admit_data
+from umbilical.library.load import preset_text
 from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, STATES
 from umbilical.scenario.document import extend
 from umbilical.studies.load import load_study

@@ -124,9 +124,8 @@ QUESTIONS = """
 import json, sys
 import numpy as np
 import umbilical
-from umbilical.admission.controller import grid_near_the_payload
-from umbilical.admission.motion import tension, wave_speed
-from umbilical.admission.steps import chosen_step, wave_step, waves_that_leave
+from umbilical.plant.checks.motion import tension, wave_speed
+from umbilical.plant.checks.steps import chosen_step, grid_near_the_payload, wave_step, waves_that_leave
 from umbilical.analysis.certificate.lyapunov import cable_function, cable_rates
 from umbilical.analysis.certificate.records import Weights
 from umbilical.analysis.margins import judge

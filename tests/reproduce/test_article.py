@@ -8,7 +8,7 @@ from hashlib import sha256
 import pytest
 
 from tests.support.pages import read
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.reproduce.article import article
 from umbilical.reproduce.errata import errata
 from umbilical.reproduce.expected import Deviation

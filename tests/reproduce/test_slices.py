@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from umbilical.admission import load
 from umbilical.engine.simulate import simulate
+from umbilical.library import load
 from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, preset
 from umbilical.reproduce.ledger import Evidence
 from umbilical.reproduce.points import EARLY, FACTORS, GRID, Point, gain_point, make_point, run_points

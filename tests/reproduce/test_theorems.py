@@ -9,9 +9,9 @@ import pytest
 import sympy
 
 from tests.reproduce.test_claims import given
-from umbilical.admission import load
 from umbilical.control.motor.backstepping import Backstepping, backstepping_drive
 from umbilical.control.motor.command_filter import Reference
+from umbilical.library import load
 from umbilical.relations.formulas import motor_constants
 from umbilical.reproduce import claims_theorems, motor_error, proofs
 from umbilical.reproduce.experiments import Runs

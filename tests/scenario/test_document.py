@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from umbilical.admission import load, preset_names, preset_text
 from umbilical.errors import FileError, ScenarioError
+from umbilical.library import load, preset_names, preset_text
 from umbilical.scenario import document
 from umbilical.scenario.fields import records, word
 from umbilical.scenario.scenario import Scenario

@@ -10,7 +10,6 @@ import pytest
 
 from tests.support.scenarios import sine
 from umbilical import Scenario
-from umbilical.admission import motion
 from umbilical.control.allocation import adaptive
 from umbilical.control.motor import backstepping
 from umbilical.control.motor import disturbance as of_motor
@@ -18,6 +17,7 @@ from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
 from umbilical.control.outer import boundary
 from umbilical.plant import exogenous, faults, signals, winch
+from umbilical.plant.checks import motion
 from umbilical.scenario.document import look_up
 from umbilical.verify import ours
 

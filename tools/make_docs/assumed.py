@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from writing import code, page, table
 
-from umbilical.admission import load, preset_names, preset_text
+from umbilical.library import load, preset_names, preset_text
 from umbilical.scenario.document import look_up, to_dict
 from umbilical.scenario.text import literal
 from umbilical.studies.load import load_study, study_names

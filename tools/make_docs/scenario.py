@@ -28,7 +28,7 @@ def scenario() -> str:
         'commented; a file that starts with `extends = "paper"` needs only what differs. Unknown keys are refused. '
         "Lists are numbered from 1 in `--set` and in messages (`motors.2.inertia`). A dash means there is no unit. "
         "Editors can use the [JSON Schema](scenario.schema.json). Checks between keys, such as the plant's step "
-        "against the wave speed, are in `src/umbilical/admission/`.",
+        "against the wave speed, are in `src/umbilical/plant/checks/` and in the parts of `src/umbilical/control/`.",
         *(section(keys, kinds) for kinds, keys in sections().items()),
     )
 

@@ -79,7 +79,7 @@ def measure_all(
 
 def _compiled(repeat: int, progress: Progress) -> list[Row]:
     """The compiled loop as a whole, by its median, and in parts, by the fastest runs: differences need quiet."""
-    from umbilical.admission import load
+    from umbilical.library import load
 
     scenario = load("paper")
     taken = _take({name: scenario.replace(change) for name, change in VARIANTS.items()}, repeat, progress)
@@ -143,10 +143,10 @@ def _others(members: int) -> list[Row]:
     """The same run by other means, and a study of many."""
     import numpy as np
 
-    from umbilical.admission import load
     from umbilical.bench.reference import displacement
     from umbilical.control.cascade import Cascade
     from umbilical.engine.simulate import simulate
+    from umbilical.library import load
 
     short = load("paper").replace({"duration": PYTHON_LOOP})
     simulate(short.replace({"duration": 0.1}), Cascade(short))

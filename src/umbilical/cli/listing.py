@@ -41,14 +41,14 @@ def presets(
 
 def _text(name: str) -> str:
     """TOML text of a scenario or study that comes along; FileError if there is none."""
-    from umbilical.admission import preset_text
+    from umbilical.library import preset_text
     from umbilical.studies.load import study_names, study_text
 
     return study_text(name) if name in study_names() else preset_text(name)
 
 
 def _descriptions() -> str:
-    from umbilical.admission import preset_names
+    from umbilical.library import preset_names
     from umbilical.scenario.document import read
     from umbilical.studies.load import study_names
 

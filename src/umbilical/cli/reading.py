@@ -88,7 +88,7 @@ def _show_run(file: str, as_json: bool) -> None:
 
 
 def _show_scenario(source: str, as_json: bool) -> None:
-    from umbilical.admission import admit, load
+    from umbilical.library import admit, load
     from umbilical.scenario.inventory import inventory
 
     scenario = load(source)

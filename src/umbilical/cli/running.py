@@ -59,8 +59,8 @@ def run(
 
 def _check_size(scenario: Scenario, out: Path) -> None:
     """Say before a long run what its result takes; OutputError if the disk has not the room."""
-    from umbilical.admission.sizes import LARGE, result_size
     from umbilical.machine import in_words, room
+    from umbilical.plant.checks.sizes import LARGE, result_size
 
     if (size := result_size(scenario)) > (free := room(out.parent)):
         raise OutputError(f"{out}: the result takes {in_words(size)}, and the disk has {in_words(free)} left")
@@ -88,7 +88,7 @@ def load_changed(source: str, changes: Sequence[str]) -> Scenario:
         FileError: there is no such scenario.
         ScenarioError: with every problem of the changes and of what they make of the scenario.
     """
-    from umbilical.admission import load
+    from umbilical.library import load
     from umbilical.scenario.document import assignment
 
     found: dict[str, Any] = {}

@@ -37,12 +37,11 @@ from umbilical.control.observers.high_gain import (
 )
 from umbilical.control.outer.boundary import boundary_error, boundary_thrust
 from umbilical.control.outer.pd import pd_thrust
+from umbilical.control.outer.table import LAWS, NONE, PD
 from umbilical.frames import Frame, integer, part, real
 from umbilical.relations.tension import Hanging, hanging, net_gravity, tension
-from umbilical.scenario.control import BoundaryLaw, MotorLoop, ProportionalDerivative
+from umbilical.scenario.control import MotorLoop
 from umbilical.scenario.scenario import Scenario
-
-NONE, PD, BOUNDARY = range(3)
 
 
 class Outer(NamedTuple):
@@ -121,18 +120,13 @@ def make_settings(scenario: Scenario) -> CascadeSettings:
 
 def _outer_settings(scenario: Scenario, period: float) -> Outer:
     control, nominal = scenario.control, scenario.control.nominal
-    law, gains, ideal = NONE, (0.0, 0.0), False
+    law = LAWS[control.law.kind]
     mass = _believed(nominal.payload_mass, scenario.payload.mass)
     gravity = _believed(nominal.gravity, scenario.environment.gravity)
-    match control.law:
-        case ProportionalDerivative() as pd:
-            law, gains, ideal = PD, (pd.position_gain, pd.velocity_gain), pd.velocity == "sensor"
-        case BoundaryLaw() as boundary:
-            law, gains, ideal = BOUNDARY, (boundary.damping_gain, boundary.slope_gain), boundary.rates == "sensor"
     return Outer(
-        law,
-        gains,
-        ideal,
+        law.number,
+        law.gains(control.law),
+        control.law.reads_rates,
         mass,
         _believed(nominal.payload_damping, scenario.payload.damping),
         gravity,

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umbilical.admission import admit
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
@@ -17,7 +16,7 @@ from umbilical.design.rounds import Limits, Outcome, Side, badness, design_withi
 from umbilical.design.score import Demands, Score
 from umbilical.design.search import Objective, Task, Values, inner_knobs
 from umbilical.errors import Problem, ScenarioError
-from umbilical.scenario.control import BoundaryLaw
+from umbilical.library import admit
 from umbilical.scenario.scenario import Scenario
 
 UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
@@ -211,7 +210,7 @@ def check_design(scenario: Scenario) -> None:
     check(scenario)
     control, law = scenario.control, scenario.control.law
     observed = control.velocity_observer and control.slope_observer and control.disturbance_observer
-    if not isinstance(law, BoundaryLaw) or law.rates != "observer" or not observed:
+    if not law.boundary_gains or law.reads_rates or not observed:
         raise ScenarioError(
             [
                 Problem(

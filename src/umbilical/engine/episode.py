@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.admission import admit
 from umbilical.control import cascade
 from umbilical.control.contract import Command, Measurement, to_measurement
 from umbilical.engine import loop
@@ -17,6 +16,7 @@ from umbilical.engine.saturation import saturation_notices
 from umbilical.engine.schedule import end_of_stretch, stretch
 from umbilical.engine.setup import set_up
 from umbilical.errors import ControllerError, Problem, ScenarioError
+from umbilical.library import admit
 from umbilical.plant.exogenous import Inputs, Outside
 from umbilical.relations.instants import apart, is_multiple, nearest_count
 from umbilical.run import Run, Status

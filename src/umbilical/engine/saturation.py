@@ -10,9 +10,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.admission.findings import Notice
-from umbilical.admission.steps import reachable_speed
 from umbilical.engine.recording import Tally, root_mean_square
+from umbilical.plant.checks.steps import reachable_speed
+from umbilical.scenario.findings import Notice
 from umbilical.scenario.scenario import Scenario
 
 SATURATED = 0.01

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from umbilical.admission.sizes import check_memory
-from umbilical.admission.steps import chosen_step
 from umbilical.compile import announce
 from umbilical.control import cascade
 from umbilical.control.contract import make_decision, make_readings
@@ -15,6 +13,8 @@ from umbilical.engine.schedule import Clock, make_clock
 from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
 from umbilical.plant import faults
+from umbilical.plant.checks.sizes import check_memory
+from umbilical.plant.checks.steps import chosen_step
 from umbilical.plant.exogenous import published_jumps
 from umbilical.relations.instants import count_up
 from umbilical.scenario.scenario import Scenario

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.admission import admit
 from umbilical.control.contract import Controller
 from umbilical.engine import loop
 from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged, so_far
@@ -18,6 +17,7 @@ from umbilical.engine.saturation import saturation_notices
 from umbilical.engine.schedule import end_of_stretch, stretch
 from umbilical.engine.setup import Setup, set_up
 from umbilical.errors import ControllerError
+from umbilical.library import admit
 from umbilical.plant.exogenous import Outside
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario

@@ -13,7 +13,6 @@ import numpy as np
 
 import umbilical
 from umbilical import files
-from umbilical.admission import admit
 from umbilical.control.allocation.adaptive import initial_kappa
 from umbilical.control.cascade import CascadeSettings, MotorMemory, OuterMemory, make_settings, to_readings
 from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecision, TipReadings, WinchReadings
@@ -22,6 +21,7 @@ from umbilical.frames import Frame
 from umbilical.interop.c_known import check_known
 from umbilical.interop.c_types import frame_fields, frame_structs, initialiser, literal, value_structs
 from umbilical.interop.c_vectors import UPDATES, Vector, vectors
+from umbilical.library import admit
 from umbilical.scenario.scenario import Scenario
 
 HOLD = 0.1

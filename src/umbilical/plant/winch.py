@@ -77,7 +77,7 @@ def _(winch: ConstantSpeed, t: Array, side: Side) -> WinchMotion:
 
 @_motion.register
 def _(winch: Quintic, t: Array, side: Side) -> WinchMotion:
-    # A numpy number: absurdly short, its powers give infinities that the admission refuses, not an exception.
+    # A numpy number: absurdly short, its powers give infinities that the checks refuse, not an exception.
     way, time = winch.end_length - winch.start_length, np.float64(winch.duration)
     q = np.clip((t - winch.start) / time, 0.0, 1.0)
     square = q * q

@@ -10,7 +10,6 @@ from matplotlib.patches import Circle
 
 from umbilical.analysis.sampled import loop_response
 from umbilical.plots.figure import COLOURS, QUIET, new_figure
-from umbilical.scenario.control import BoundaryLaw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,10 +50,10 @@ def plot_reflection(report: MarginReport, *, ax: Axes) -> Axes:
     ax.semilogx(
         shortest.sweep.coarse, 1.0 / shortest.sweep.loudest, color=QUIET, linestyle=":", label="what the cable takes"
     )
-    law = report.scenario.control.law
-    if isinstance(law, BoundaryLaw):
+    gains = report.scenario.control.law.boundary_gains
+    if gains and not report.controller:
         speed = shortest.sweep.cable.tip_wave_speed
-        ideal = abs(speed - law.slope_gain) / (speed + law.slope_gain)
+        ideal = abs(speed - gains[1]) / (speed + gains[1])
         ax.axhline(ideal, color=QUIET, linestyle="--", linewidth=1.0, label="ideal law")
     ax.set_xlim(LOWEST, None)
     return _finish(ax, "reflection of the ROV |R|", "")

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from hashlib import sha256
 
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.report import (
     Html,
     Section,

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.run import Run
 from umbilical.scenario import Scenario
 

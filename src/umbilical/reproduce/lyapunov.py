@@ -12,7 +12,6 @@ from umbilical.analysis.certificate.lyapunov import boundary_function, cable_fun
 from umbilical.analysis.certificate.records import Weights
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.run import Run
-from umbilical.scenario.control import BoundaryLaw
 
 MARGIN = 2.0
 """By how much the constants keep clear of the conditions the proof sets them."""
@@ -29,15 +28,15 @@ def lyapunov(run: Run) -> dict[str, np.ndarray]:
         ValueError: the run has no boundary law, or no disturbance observer.
     """
     scenario = run.scenario
-    law, observer = scenario.control.law, scenario.control.disturbance_observer
-    if not isinstance(law, BoundaryLaw) or observer is None or not law.slope_gain:
+    gains, observer = scenario.control.law.boundary_gains, scenario.control.disturbance_observer
+    if not gains or observer is None or not gains[1]:
         raise ValueError(f"{scenario.name}: V is defined for the boundary law with its disturbance observer")
-    rho, beta = scenario.cable.line_density, law.slope_gain
+    rho, (k_a, beta) = scenario.cable.line_density, gains
     net = net_gravity(scenario.environment.gravity, run["payout_acceleration"].values)
     tip = float(tension(0.0, net, hanging_of(scenario.cable, scenario.payload, scenario.environment)).max())
     longest = float(run["length"].max())
     lam = min(beta / longest, tip / (beta * rho * longest)) / MARGIN
-    eta = MARGIN * tip / (2.0 * beta * law.damping_gain)
+    eta = MARGIN * tip / (2.0 * beta * k_a)
     read = {str(name): values.values for name, values in {**run.data.data_vars, **run.data.coords}.items()}
     weights = Weights(cross=lam, vessel=0.0, boundary=eta)
     energy = cable_function(scenario, read, weights._replace(cross=0.0))

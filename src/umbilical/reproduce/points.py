@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
-from umbilical.admission import load
 from umbilical.engine.simulate import measure
+from umbilical.library import load
 from umbilical.reproduce.experiments import BELIEVED, OBSERVER, START, preset
 from umbilical.reproduce.work import Progress, in_parallel
 from umbilical.run import Status

@@ -37,7 +37,7 @@ def parse(text: str, origin: str = "scenario") -> Scenario:
         FileError: the text is not TOML; the message names line and column.
         ScenarioError: it is, but not of a scenario; every problem is listed.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> parse(load("paper").to_toml()) == load("paper")
     True
     """

@@ -41,7 +41,7 @@ class Entry(NamedTuple):
 def inventory(scenario: Scenario) -> list[Entry]:
     """Every value of a scenario, but for sections that are left at their defaults and not marked.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> [entry for entry in inventory(load("paper")) if entry.key == "cable.line_density"][0].value
     '2.0'
     """
@@ -52,7 +52,7 @@ def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
     """Unit and meaning of the value at a dotted key of this scenario, kinds of tables included; empty where the
     scenario has no such place.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> words_at(load("paper"), "environment.payload_force.2.phase")[0]
     'rad'
     """

@@ -38,7 +38,7 @@ class Output(Record):
 class Scenario(Record):
     """Everything a run depends on, frozen. Two equal scenarios give the same bytes.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> heavy = load("paper").replace({"cable.line_density": 3.0, "motors.2.thrust_coefficient": 1.0})
     >>> heavy.cable.line_density, heavy.hash == load("paper").hash
     (3.0, False)

@@ -21,7 +21,7 @@ _COMMENT_COLUMN = 32
 def to_toml(scenario: Scenario) -> str:
     """Complete TOML text of a scenario; reading it back gives an equal scenario.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> print(load("paper").to_toml().splitlines()[4])
     name = "paper"                  # short name, also of the result file
     """

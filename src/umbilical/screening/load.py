@@ -4,21 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from functools import lru_cache
-from importlib import resources
 from typing import Any
 
 from pydantic import ValidationError
 
 from umbilical import files
-from umbilical.admission.weights import cable_in_water, payload_in_water
 from umbilical.errors import FileError, Problem, ScenarioError
-from umbilical.scenario.document import Data, extend, freeze, read, try_override
+from umbilical.plant.checks.weights import cable_in_water, payload_in_water
+from umbilical.scenario.document import freeze, read, try_override
+from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.screening.axial import Bar
 from umbilical.screening.operation import Operation
 
 _LARGEST_STRAIN = 0.1
+
+OPERATIONS = Presets("umbilical.screening", "operation", "operations that come along")
 
 
 def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Operation:
@@ -37,7 +38,7 @@ def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] 
     7.0
     """
     origin = os.fspath(source)
-    changed, lost = try_override(_extended(read(_text(origin), origin), origin), overrides or {})
+    changed, lost = try_override(OPERATIONS.extended(read(_text(origin), origin), origin), overrides or {})
     try:
         operation = Operation.model_validate(freeze(changed))
     except ValidationError as error:
@@ -53,12 +54,12 @@ def operation_names() -> tuple[str, ...]:
     >>> operation_names()
     ('work-class',)
     """
-    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
+    return OPERATIONS.names
 
 
 def operation_text(name: str) -> str:
     """TOML text of an operation that comes with the package."""
-    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+    return OPERATIONS.text(name)
 
 
 def bar_of(operation: Operation, length: float) -> Bar:
@@ -88,11 +89,6 @@ def problems_across(operation: Operation) -> list[Problem]:
     return found
 
 
-@lru_cache(maxsize=1)
-def _folder() -> Any:
-    return resources.files("umbilical.screening") / "presets"
-
-
 def _text(source: str) -> str:
     if source in operation_names():
         return operation_text(source)
@@ -102,15 +98,3 @@ def _text(source: str) -> str:
         raise FileError(f"{source}: this is not UTF-8 text; save it with that encoding") from error
     except FileError as error:
         raise FileError(f"{error}, and no operation of this name; {nearest(source, operation_names())}") from error
-
-
-def _extended(data: Data, origin: str) -> Data:
-    """The document laid over the preset that it extends."""
-    if "extends" not in data:
-        return data
-    name, known = data.pop("extends"), operation_names()
-    if name not in known:
-        bound, cure = f"one of {', '.join(known)}", nearest(str(name), known)
-        problem = Problem("extends", str(name), bound, "only operations that come along can be extended", cure)
-        raise ScenarioError([problem], origin)
-    return extend(read(operation_text(name), name), data)

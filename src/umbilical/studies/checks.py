@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from umbilical.admission import admit
 from umbilical.errors import Problem, ScenarioError
+from umbilical.library import admit
 from umbilical.quantities import METRICS
 from umbilical.scenario.document import look_up, validate
 from umbilical.scenario.inventory import words_at

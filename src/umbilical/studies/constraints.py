@@ -18,7 +18,7 @@ PHASE = 0.5235987755982988
 def certificate(scenario: Scenario) -> float:
     """Broken unless the ideal loop is proved to calm down over the whole run: the negative of its certified rate, 1/s.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> ringdown = load("ringdown")
     >>> certificate(ringdown.replace({"control.law.slope_gain": 5.0})) < 0.0
     True
@@ -39,7 +39,7 @@ def margins(scenario: Scenario) -> float:
     survives thrusters of half and of twice their strength, and :data:`PHASE` of lag: the unstable poles, or the largest
     share of a margin that is missing.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> 0.0 < margins(load("paper")) < 1.0  # stable, but not with twice the thrust
     True
     """

@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from functools import lru_cache
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from umbilical import files
-from umbilical.admission import load
 from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.library import load
 from umbilical.scenario.document import Data, freeze, read, try_override
+from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.studies.checks import problems_across
 from umbilical.studies.study import Study
+
+STUDIES = Presets("umbilical.studies", "study")
 
 
 def load_study(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Study:
@@ -99,7 +100,7 @@ def study_names() -> tuple[str, ...]:
     >>> study_names()
     ('fault-map', 'gain-tuning', 'paper-robustness')
     """
-    return tuple(sorted(item.name.removesuffix(".toml") for item in _folder().iterdir() if item.name.endswith(".toml")))
+    return STUDIES.names
 
 
 def study_text(name: str) -> str:
@@ -108,9 +109,7 @@ def study_text(name: str) -> str:
     Raises:
         FileError: there is none of this name.
     """
-    if name not in study_names():
-        raise FileError(f"{name}: there is no study of this name; {nearest(name, study_names())}")
-    return (_folder() / f"{name}.toml").read_text(encoding="utf-8")
+    return STUDIES.text(name)
 
 
 def is_study(source: str) -> bool:
@@ -125,11 +124,6 @@ def is_study(source: str) -> bool:
         return Path(source).suffix == ".toml" and "scenario" in read(_text(source), source)
     except FileError:
         return False
-
-
-@lru_cache(maxsize=1)
-def _folder() -> Any:
-    return resources.files("umbilical.studies") / "presets"
 
 
 def _text(source: str) -> str:

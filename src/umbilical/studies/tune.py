@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.admission import admit, load, preset_names
 from umbilical.analysis.paired import quantile
 from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.library import admit, load, preset_names
 from umbilical.scenario.document import extend, look_up, override, validate
 from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint

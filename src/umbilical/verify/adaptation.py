@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, history_close
 

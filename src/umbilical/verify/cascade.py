@@ -14,8 +14,8 @@ from functools import cache
 
 import numpy as np
 
-from umbilical.admission import load
 from umbilical.analysis.convergence import Curve
+from umbilical.library import load
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, history_close, order_reached
 from umbilical.verify.ours import constant, sine

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from umbilical.admission import load
 from umbilical.analysis.convergence import Curve
+from umbilical.library import load
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, close, order_reached
 from umbilical.verify.stated import PERIOD_ORDER

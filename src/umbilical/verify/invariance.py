@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.run import Run
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, close, history_close

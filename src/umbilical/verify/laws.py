@@ -10,11 +10,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.admission import load
 from umbilical.bench import reference as paper
 from umbilical.control.motor import backstepping
 from umbilical.control.motor.command_filter import Reference
 from umbilical.control.outer import boundary
+from umbilical.library import load
 from umbilical.relations.formulas import motor_constants
 from umbilical.verify.cases import Case, Check, history_close
 

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.admission import load
-from umbilical.admission.steps import chosen_step
 from umbilical.engine.linear import step_matrix
 from umbilical.engine.simulate import simulate
+from umbilical.library import load
+from umbilical.plant.checks.steps import chosen_step
 from umbilical.plant.layout import to_nodal
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario

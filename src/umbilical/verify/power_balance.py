@@ -11,8 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.admission import load
 from umbilical.analysis.convergence import Curve
+from umbilical.library import load
 from umbilical.run import Run
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, order_reached, small

@@ -16,7 +16,6 @@ from umbilical.plant import signals
 from umbilical.plant.exogenous import profile
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.tension import hanging_of, inertial_tension, net_gravity, tension, tension_gain
-from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 
 Array = np.ndarray
@@ -127,15 +126,14 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
 
 def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
     """Every term of dV3/dt in the ideal loop with its disturbance observer, W, each of shape (time,)."""
-    law, observer = scenario.control.law, scenario.control.disturbance_observer
-    assert isinstance(law, BoundaryLaw)
+    observer = scenario.control.disturbance_observer
     assert observer is not None
     eta, k_s, vs = weights.boundary, observer.gain, observer.coupling
     error = law_error(scenario, run)
     missed = np.asarray(run["disturbance"]) - np.asarray(run["disturbance_estimate"])
     force_rate = signals.derivative(scenario.environment.payload_force, np.asarray(run["time"]))
     return {
-        "boundary damping": -eta * law.damping_gain * error**2,
+        "boundary damping": -eta * _gains(scenario)[0] * error**2,
         "disturbance estimate": -eta / vs * missed**2,
         "disturbance rate": eta / (k_s * vs) * missed * force_rate,
     }
@@ -143,9 +141,13 @@ def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weight
 
 def law_error(scenario: Scenario, run: Mapping[str, Array]) -> Array:
     """The true u_a, m/s, shape (time,)."""
-    law = scenario.control.law
-    assert isinstance(law, BoundaryLaw)
-    return np.asarray(run["tip_velocity"]) + law.slope_gain * np.asarray(run["tip_slope"])
+    return np.asarray(run["tip_velocity"]) + _gains(scenario)[1] * np.asarray(run["tip_slope"])
+
+
+def _gains(scenario: Scenario) -> tuple[float, float]:
+    gains = scenario.control.law.boundary_gains
+    assert gains is not None
+    return gains
 
 
 def loads_along(scenario: Scenario, time: Array, sigma: Array) -> Array:

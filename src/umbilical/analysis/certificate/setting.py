@@ -12,7 +12,6 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import winch as laws
 from umbilical.plant.top import top_within
 from umbilical.relations.tension import Hanging, hanging, net_gravity
-from umbilical.scenario.control import BoundaryLaw
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import ConstantLength, Cosine, Winch
 
@@ -79,10 +78,11 @@ def loop_of(scenario: Scenario) -> Loop:
         ScenarioError: the outer law is not the boundary law, or its slope gain is 0.
     """
     law, observer = scenario.control.law, scenario.control.disturbance_observer
-    if not isinstance(law, BoundaryLaw):
+    if not law.boundary_gains:
         reason = "the certificate is about the boundary law, eq. (22)"
         raise ScenarioError([_problem("control.law.kind", f'"{law.kind}"', '"boundary"', reason)], scenario.name)
-    if law.slope_gain <= 0.0:
+    damping_gain, slope_gain = law.boundary_gains
+    if slope_gain <= 0.0:
         reason = "without the slope u_a says nothing about the waves in the cable; nothing can be certified"
         raise ScenarioError([_problem("control.law.slope_gain", "0 m/s", "above 0 m/s", reason)], scenario.name)
     observes = observer is not None and observer.enabled
@@ -93,8 +93,8 @@ def loop_of(scenario: Scenario) -> Loop:
         wet=scenario.cable.wet_line_density,
         weight=scenario.payload.wet_weight,
         c=scenario.cable.damping,
-        beta=law.slope_gain,
-        k_a=law.damping_gain if observes else law.damping_gain / 2.0,
+        beta=slope_gain,
+        k_a=damping_gain if observes else damping_gain / 2.0,
         k_s=observer.gain if observer is not None and observes else None,
         vs=observer.coupling if observer is not None else 1.0,
     )

@@ -11,6 +11,7 @@ leak holds it; ``upper`` projects kappa onto a box (ours, recommended; infinite 
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,8 +19,12 @@ import numpy as np
 from umbilical.compile import kernel
 from umbilical.control.contract import MotorDecision
 from umbilical.control.nominal import NominalMotor
+from umbilical.control.rates import outer_period, within_a_period
+from umbilical.errors import Problem
 from umbilical.frames import Frame, real
-from umbilical.scenario.control import AdaptiveAllocation, Allocation
+from umbilical.scenario.control import AdaptiveAllocation, Allocation, Control
+from umbilical.scenario.findings import Finding
+from umbilical.scenario.hardware import Motor
 
 
 class KappaStep(Frame):
@@ -75,3 +80,71 @@ def adaptive_demand(nominal: NominalMotor, kappa: np.ndarray, thrust: float, dec
         common += kappa[j]
     for i in range(nominal.size):
         decision[i].demand = np.sign(nominal[i].thrust_coefficient) * common
+
+
+def adaptation(control: Control, motors: Sequence[Motor], ideal_thruster: bool) -> Iterator[Finding]:
+    """Lists of the adaptive law have n + 1 entries, positive rates and a box around the start."""
+    law = control.allocation
+    if not isinstance(law, AdaptiveAllocation):
+        return
+    if ideal_thruster:
+        yield Problem(
+            "control.allocation.method",
+            '"adaptive"',
+            '"known" with ideal_thruster',
+            "an ideal thruster has no motors to share the thrust",
+            "set ideal_thruster = false",
+        )
+    for name in ("rates", "initial", "lower", "upper"):
+        values = getattr(law, name)
+        if values is not None and len(values) != len(motors) + 1:
+            yield Problem(
+                f"control.allocation.{name}",
+                f"{len(values)} entries",
+                f"{len(motors) + 1} entries",
+                f"kappa_0 and one more for each of the {len(motors)} motors",
+                "one entry each",
+            )
+    for number, rate in enumerate(law.rates, start=1):
+        if rate <= 0.0:
+            yield Problem(
+                f"control.allocation.rates.{number}",
+                f"{rate:g}",
+                "above 0",
+                "a rate of the wrong sign adapts away from the fault",
+                "a positive rate",
+            )
+    yield from _box(law)
+
+
+def _box(law: AdaptiveAllocation) -> Iterator[Finding]:
+    for number, start in enumerate(law.initial, start=1):
+        lower, upper = (box[number - 1] if box and number <= len(box) else start for box in (law.lower, law.upper))
+        if not lower <= start <= upper:
+            yield Problem(
+                f"control.allocation.initial.{number}",
+                f"{start:g}",
+                f"from {lower:g} to {upper:g}",
+                "kappa is projected onto the box between lower and upper, and starts in it",
+                "a start inside the box, or a box around the start",
+            )
+
+
+def adaptation_has_its_error(control: Control) -> Iterator[Finding]:
+    """The adaptive law is driven by u_a, which only the boundary law computes."""
+    if isinstance(control.allocation, AdaptiveAllocation) and not control.law.boundary_gains:
+        yield Problem(
+            "control.allocation.method",
+            '"adaptive"',
+            f'"known" with the law "{control.law.kind}"',
+            "the adaptive law is driven by u_a, which only the boundary law computes: kappa would only leak away",
+            'set control.law.kind = "boundary" or control.allocation.method = "known"',
+        )
+
+
+def leak(control: Control) -> Iterator[Finding]:
+    """The leak of the adaptive law forgets, and does not overshoot."""
+    law = control.allocation
+    if isinstance(law, AdaptiveAllocation):
+        fastest = max(law.rates)
+        yield from within_a_period("control.allocation.leak", law.leak, "", max(fastest, 0.0), outer_period(control))

@@ -10,12 +10,15 @@ motors fail to deliver is part of D.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import exp
 from typing import NamedTuple
 
 from umbilical.compile import kernel
+from umbilical.control.rates import outer_period, within_a_period
 from umbilical.frames import Frame, real
-from umbilical.scenario.control import DisturbanceObserver
+from umbilical.scenario.control import Control, DisturbanceObserver
+from umbilical.scenario.findings import Finding
 
 
 class DisturbanceMemory(Frame):
@@ -59,3 +62,12 @@ def advance_disturbance(
 def disturbance_estimate(observer: Disturbance, memory: DisturbanceMemory, mass: float, velocity: float) -> float:
     """D^, N."""
     return memory.disturbance_state + observer.gain * mass * velocity if observer.enabled else 0.0
+
+
+def disturbance_observer(control: Control) -> Iterator[Finding]:
+    """The estimate D^ moves towards D, not past it."""
+    observer = control.disturbance_observer
+    if control.law.meets_force and observer and observer.enabled:
+        yield from within_a_period(
+            "control.disturbance_observer.gain", observer.gain, "1/s", 1.0, outer_period(control)
+        )

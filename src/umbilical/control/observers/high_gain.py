@@ -10,14 +10,18 @@ input held since the last sample. It starts at rest on the first sample: pi1 = x
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.control.linear import held_input_form
+from umbilical.control.rates import outer_period
+from umbilical.errors import Problem
 from umbilical.frames import Frame, real
-from umbilical.scenario.control import HighGainObserver
+from umbilical.scenario.control import Control, HighGainObserver
+from umbilical.scenario.findings import Finding, amount
 
 
 class HighGainMemory(Frame):
@@ -61,3 +65,18 @@ def advance_high_gain(observer: HighGain, memory: HighGainMemory, signal: float)
 def derivative_estimate(observer: HighGain, memory: HighGainMemory) -> float:
     """pi2/eps."""
     return memory.filtered_rate / observer.time_constant
+
+
+def high_gain_observers(control: Control) -> Iterator[Finding]:
+    """An observer that is sampled more rarely than it acts returns an estimate of the past."""
+    period = outer_period(control)
+    for name in control.law.observers:
+        observer = getattr(control, name)
+        if observer and observer.time_constant < 2.0 * period * (1.0 - 1e-9):
+            yield Problem(
+                f"control.{name}.time_constant",
+                amount(observer.time_constant, "s"),
+                f"at least {2.0 * period:g} s, two periods of the outer loop",
+                "a sample older than half the observer's time makes its estimate lag more than it filters",
+                "a larger time_constant, or a shorter control period",
+            )

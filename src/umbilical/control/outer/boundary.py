@@ -11,7 +11,19 @@ with c_l = sqrt(T_l/rho).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from umbilical.compile import kernel
+from umbilical.control.rates import outer_period, within_a_period
+from umbilical.errors import Problem
+from umbilical.scenario.control import BoundaryLaw, Control
+from umbilical.scenario.findings import Finding, amount
+from umbilical.scenario.hardware import Payload
+
+
+def gains(law: BoundaryLaw) -> tuple[float, float]:
+    """k_a, N s/m, and beta, m/s."""
+    return law.damping_gain, law.slope_gain
 
 
 @kernel
@@ -32,3 +44,22 @@ def boundary_thrust(
 ) -> float:
     """alpha_c, N; ``known_force`` is T z1 + c_tip x2^, N."""
     return -damping_gain * error - slope_gain * mass * slope_rate + known_force - disturbance
+
+
+def boundary_law(control: Control, payload: Payload) -> Iterator[Finding]:
+    """The boundary damping acts on an estimate that keeps up with the ROV."""
+    law, observer, period = control.law, control.velocity_observer, outer_period(control)
+    if not isinstance(law, BoundaryLaw):
+        return
+    yield from within_a_period("control.law.damping_gain", law.damping_gain, "N s/m", 1.0 / payload.mass, period)
+    if not observer or law.reads_rates:
+        return
+    limit = observer.damping * payload.mass / law.damping_gain
+    if observer.time_constant >= limit:
+        yield Problem(
+            "control.velocity_observer.time_constant",
+            amount(observer.time_constant, "s"),
+            f"below damping * mass / damping_gain = {limit:.6g} s",
+            "with a slower observer the damping k_a arrives too late and drives the ROV instead",
+            "a smaller time_constant or a smaller control.law.damping_gain",
+        )

@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from umbilical.compile import kernel
+from umbilical.control.rates import outer_period, within_a_period
+from umbilical.scenario.control import Control, ProportionalDerivative
+from umbilical.scenario.findings import Finding
+from umbilical.scenario.hardware import Payload
+
+
+def gains(law: ProportionalDerivative) -> tuple[float, float]:
+    """k_p, N/m, and k_d, N s/m."""
+    return law.position_gain, law.velocity_gain
 
 
 @kernel
 def pd_thrust(position_gain: float, velocity_gain: float, displacement: float, velocity: float) -> float:
     """alpha_c = -k_p y(l,t) - k_d Dy/Dt(l,t), N."""
     return -position_gain * displacement - velocity_gain * velocity
+
+
+def proportional_derivative(control: Control, payload: Payload) -> Iterator[Finding]:
+    """The PD baseline, sampled, still is a spring and a damper."""
+    law, period = control.law, outer_period(control)
+    if isinstance(law, ProportionalDerivative):
+        yield from within_a_period("control.law.velocity_gain", law.velocity_gain, "N s/m", 1.0 / payload.mass, period)
+        yield from within_a_period("control.law.position_gain", law.position_gain, "N/m", period / payload.mass, period)

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from umbilical.admission import admit, load, preset_names, preset_text
 from umbilical.errors import FileError, ScenarioError, UmbilicalError
+from umbilical.library import admit, load, preset_names, preset_text
 
 PRESETS = {
     "paper", "paper-none", "paper-pd", "paper-adaptive", "paper-dead", "paper-stuck", "paper-partial",

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from umbilical.admission import load
 from umbilical.errors import Problem, ScenarioError
+from umbilical.library import load
 from umbilical.scenario.document import look_up
 
 Case = tuple[dict[str, Any], str, str]

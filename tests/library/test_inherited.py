@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import umbilical
-from umbilical.admission import admit, preset_names
+from umbilical.library import admit, preset_names
 
 LARGE = {"inertia": 2.0, "torque_constant": 3.0}
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from umbilical import machine
-from umbilical.admission import admit, load
-from umbilical.admission.sizes import check_memory, result_size
 from umbilical.engine.simulate import simulate
 from umbilical.errors import ScenarioError
+from umbilical.library import admit, load
+from umbilical.plant.checks.sizes import check_memory, result_size
 
 LARGE = {"grid.elements": 400, "output.interval": 1e-3}
 

@@ -8,10 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.admission.findings import Finding, Notice
 from umbilical.errors import Problem
 from umbilical.plant.signals import spline
 from umbilical.relations.instants import ROUND_OFF, apart, reaches
+from umbilical.scenario.findings import Finding, Notice
 
 MOST_OVERSHOOT = 0.05
 """Share of the data's range that a smooth curve may leave it by."""

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 import umbilical
-from tests.admission.test_bad_input import problems
-from umbilical.admission import admit
+from tests.library.test_bad_input import problems
+from umbilical.library import admit
 
 HARD = {"law": "cosine", "start_length": 450.0, "amplitude": 40.0, "frequency": 0.3}
 

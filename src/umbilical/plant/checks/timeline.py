@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from umbilical.admission.findings import Finding, Notice, amount
-from umbilical.admission.tables import TableOf, smoothness, table_problems
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.plant.checks.tables import TableOf, smoothness, table_problems
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario import Scenario
 from umbilical.scenario.control import Control
 from umbilical.scenario.document import look_up, to_dict
 from umbilical.scenario.environment import Environment, InitialShape, TableProfile, TableShape
 from umbilical.scenario.faults import Fault
+from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.problems import nearest
 from umbilical.scenario.scenario import Grid, Output

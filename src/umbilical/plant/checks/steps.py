@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import sqrt
+from math import pi, sqrt
 
 import numpy as np
 
-from umbilical.admission.findings import Finding, amount
-from umbilical.admission.motion import sampled_winch
-from umbilical.admission.timeline import MOST_STEPS
 from umbilical.errors import Problem
+from umbilical.plant.checks.motion import sampled_winch
+from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
+from umbilical.plant.top import top_at
 from umbilical.relations.instants import count_up
-from umbilical.relations.tension import hanging_of, largest_tension, tension
+from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
+from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Cable, Motor, Payload
 from umbilical.scenario.scenario import Grid, Scenario
 from umbilical.scenario.winch import Winch
@@ -159,3 +160,30 @@ def fastest_pole(motor: Motor, speed: float) -> float:
         [-motor.back_emf_constant / motor.inductance, -motor.resistance / motor.inductance],
     ])  # fmt: skip
     return float(np.abs(np.linalg.eigvals(matrix)).max()) if np.isfinite(matrix).all() else float("inf")
+
+
+_FELT_FROM = 0.2
+"""Share of the wave speed at the ROV from which on a slope gain lets the motors chatter at waves no grid carries."""
+
+
+def grid_near_the_payload(
+    duration: float,
+    control: Control,
+    cable: Cable,
+    payload: Payload,
+    environment: Environment,
+    winch: Winch,
+    grid: Grid,
+) -> Iterator[Finding]:
+    """Waves too short for the grid are damped where a real cable sends them back from the vessel."""
+    pull = tension(0.0, net_gravity(environment.gravity), hanging_of(cable, payload, environment))
+    speed = sqrt(pull / cable.line_density)
+    gains = control.law.boundary_gains
+    if gains and gains[1] >= _FELT_FROM * speed:
+        longest = float(top_at(winch, [0.0, duration]).length.max())
+        band = 2.0 * pi * speed * grid.elements / longest
+        yield Notice(
+            "control.law.slope_gain",
+            f"at {gains[1]:g} m/s the loop feels waves above {band:.0f} rad/s, which this grid damps "
+            "and a cable would send back: judge stability by `umbilical margins`",
+        )

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 
 from tests.support.random_scenarios import few, inadmissible
-from umbilical.admission import load
 from umbilical.errors import ScenarioError
+from umbilical.library import load
 
 
 @settings(few, max_examples=150)

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.admission import admit
-from umbilical.admission.tables import MOST_OVERSHOOT, overshoot
 from umbilical.errors import Problem, ScenarioError
+from umbilical.library import admit
+from umbilical.plant.checks.tables import MOST_OVERSHOOT, overshoot
 from umbilical.plant.signals import spline
 
 PLACES = [

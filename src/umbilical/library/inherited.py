@@ -6,12 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from umbilical.admission.controller import drives_motors
-from umbilical.admission.findings import Finding, Notice
-from umbilical.admission.presets import preset_names, preset_text
+from umbilical.control.rates import drives_motors
 from umbilical.scenario.control import Control
 from umbilical.scenario.document import read
+from umbilical.scenario.findings import Finding, Notice
 from umbilical.scenario.hardware import Motor
+from umbilical.scenario.presets import Presets
 
 _GAINS = ("speed_gain", "current_gain", "observer_gain")
 _CONSTANTS = (
@@ -56,8 +56,9 @@ def _differs(value: float, before: float) -> bool:
 def _chosen() -> tuple[Chosen, ...]:
     """Every preset that brings a motor loop and motors of its own."""
     found: list[Chosen] = []
-    for name in preset_names():
-        data: Any = read(preset_text(name), name)
+    presets = Presets("umbilical.scenario", "preset")
+    for name in presets.names:
+        data: Any = read(presets.text(name), name)
         loop, motors = data.get("control", {}).get("motor_loop"), data.get("motors")
         if loop and motors:
             found.append(Chosen(name, loop, motors))

@@ -7,16 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.admission.findings import Finding, Notice
-from umbilical.admission.motion import sampled_winch
-from umbilical.admission.timeline import shapes, signals_of_the_environment
 from umbilical.errors import Problem
 from umbilical.plant import signals
+from umbilical.plant.checks.motion import sampled_winch
+from umbilical.plant.checks.timeline import shapes, signals_of_the_environment
 from umbilical.plant.exogenous import profile
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, tension
-from umbilical.scenario.control import BoundaryLaw, Control, ProportionalDerivative
+from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape
+from umbilical.scenario.findings import Finding, Notice
 from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.winch import Winch
 
@@ -74,7 +74,7 @@ def steady_slope(
     what it takes to hold the ROV, and less as it creeps at ``-beta y_x``. The thrusters are taken to give what the law
     asks for.
     """
-    if not environment.cable_load and (not environment.payload_force or isinstance(control.law, BoundaryLaw)):
+    if not environment.cable_load and (not environment.payload_force or control.law.boundary_gains):
         return Steady(0.0, 0.0, True)
     t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
     motion = top_at(winch, t)
@@ -110,13 +110,10 @@ def _left_at_the_payload(
     With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N.
     """
     force = signals.evaluate(environment.payload_force, t)
-    match control.law:
-        case BoundaryLaw(slope_gain=gain):
-            return _creeping(t, carried, alone, gain / pull)
-        case ProportionalDerivative(position_gain=spring):
-            return (force - spring * carried) / (1.0 + spring * alone)
-        case _:
-            return force
+    if gains := control.law.boundary_gains:
+        return _creeping(t, carried, alone, gains[1] / pull)
+    spring = control.law.spring
+    return (force - spring * carried) / (1.0 + spring * alone)
 
 
 def _creeping(t: np.ndarray, carried: np.ndarray, alone: np.ndarray, rate: np.ndarray) -> np.ndarray:

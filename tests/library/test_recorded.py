@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.admission.recorded import files_of
+from umbilical.library.recorded import files_of
 from umbilical.errors import ScenarioError
 
 SINES = ((0.5, 0.5, 0.0), (0.3, 0.8, 1.0), (0.1, 1.3, 2.0))

@@ -8,13 +8,36 @@ from pathlib import Path
 from typing import Any
 
 from umbilical import files
-from umbilical.admission.examine import admit_data
-from umbilical.admission.presets import preset_names, preset_text
-from umbilical.admission.recorded import consequences, forget, read_files
-from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.errors import FileError, ScenarioError
+from umbilical.library.admit import admit_data
+from umbilical.library.recorded import consequences, forget, read_files
 from umbilical.scenario import Scenario
-from umbilical.scenario.document import extend, read, try_override
-from umbilical.scenario.problems import nearest, shown
+from umbilical.scenario.document import read, try_override
+from umbilical.scenario.presets import Presets
+from umbilical.scenario.problems import nearest
+
+PRESETS = Presets("umbilical.scenario", "preset")
+
+
+def preset_names() -> tuple[str, ...]:
+    """Names of the scenarios that come with the package.
+
+    >>> "paper" in preset_names()
+    True
+    """
+    return PRESETS.names
+
+
+def preset_text(name: str) -> str:
+    """TOML text of a preset, as it is in the package.
+
+    Raises:
+        FileError: there is no such preset.
+
+    >>> preset_text("paper-dead").splitlines()[0]
+    'extends = "paper"'
+    """
+    return PRESETS.text(name)
 
 
 def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = None) -> Scenario:
@@ -36,7 +59,7 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
     10.0
     """
     origin = os.fspath(source)
-    data = _extended(read(_text(origin), origin), origin)
+    data = PRESETS.extended(read(_text(origin), origin), origin)
     changed, lost = try_override(data, overrides or {})
     forget(changed, overrides or {})
     unread = read_files(changed, Path() if origin in preset_names() else Path(origin).parent)
@@ -44,25 +67,6 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
         return admit_data(changed, origin, [*lost, *unread])
     except ScenarioError as error:
         raise ScenarioError(consequences(error.problems, unread), origin) from error
-
-
-def _extended(data: dict[str, Any], origin: str) -> dict[str, Any]:
-    """The document laid over the preset it extends, which may itself extend another."""
-    if "extends" not in data:
-        return data
-    name = data["extends"]
-    changes = {key: value for key, value in data.items() if key != "extends"}
-    if name not in preset_names():
-        reason = "only the presets of this package can be extended"
-        problem = Problem(
-            "extends",
-            shown(name),
-            f"one of {', '.join(preset_names())}",
-            reason,
-            nearest(name if isinstance(name, str) else "", preset_names()),
-        )
-        raise ScenarioError([problem], origin)
-    return extend(_extended(read(preset_text(name), name), name), changes)
 
 
 def _text(source: str) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from umbilical.admission import load
-from umbilical.admission.steps import chosen_step, fastest_pole, plant_step, reachable_speed
 from umbilical.engine.linear import linearise_plant
 from umbilical.errors import ScenarioError
+from umbilical.library import load
+from umbilical.plant.checks.steps import chosen_step, fastest_pole, plant_step, reachable_speed
 from umbilical.plant.multistep import DECAY_LIMIT, amplification, courant_limit
 from umbilical.scenario.hardware import Motor
 

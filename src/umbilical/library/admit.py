@@ -9,11 +9,11 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import TypeAdapter
 
-from umbilical.admission.checks import CHECKS
-from umbilical.admission.findings import Finding, Notice
 from umbilical.errors import Problem, ScenarioError
+from umbilical.library.checks import CHECKS
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import freeze, validate
+from umbilical.scenario.findings import Finding, Notice
 
 
 def admit(scenario: Scenario) -> tuple[Notice, ...]:
@@ -25,7 +25,7 @@ def admit(scenario: Scenario) -> tuple[Notice, ...]:
     Raises:
         ScenarioError: with every problem.
 
-    >>> from umbilical.admission import load
+    >>> from umbilical.library import load
     >>> admit(load("paper"))
     ()
     """

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from umbilical import machine
-from umbilical.admission.findings import Finding, Notice, amount
-from umbilical.admission.timeline import MOST_JUMPS, of_environment, of_motors
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import signals
+from umbilical.plant.checks.timeline import MOST_JUMPS, of_environment, of_motors
 from umbilical.scenario import Scenario
 from umbilical.scenario.environment import Environment
+from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Motor
 
 LARGE = 2e8

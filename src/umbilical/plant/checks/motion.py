@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.admission.findings import Finding, amount
-from umbilical.admission.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.plant.checks.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.plant.signals import table_jumps
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
 from umbilical.relations.tension import hanging_of, slack_acceleration, smallest_tension
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
+from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.signals import Pulse, Step, Table
 from umbilical.scenario.winch import Cosine, Winch

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from umbilical.admission.findings import Finding, Notice, amount
 from umbilical.errors import Problem
 from umbilical.relations.tension import hanging, inertial_tension, net_gravity
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
+from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Cable, Payload
 
 _ROUNDING = 1e-9

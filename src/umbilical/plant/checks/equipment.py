@@ -6,19 +6,19 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations
 from math import inf
 
-from umbilical.admission.findings import Finding, amount
-from umbilical.admission.timeline import MOST_JUMPS
 from umbilical.errors import Problem
+from umbilical.plant.checks.timeline import MOST_JUMPS
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
-from umbilical.scenario.control import Control, NoControl
+from umbilical.scenario.control import Control
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Stuck
+from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.sensors import Channel, Sensors
 
 
 def motors_are_there(motors: Sequence[Motor], ideal_thruster: bool, control: Control) -> Iterator[Finding]:
     """A law that commands a thrust has something to deliver it."""
-    if not motors and not ideal_thruster and not isinstance(control.law, NoControl):
+    if not motors and not ideal_thruster and control.law.closes_loop:
         yield Problem(
             "motors",
             "none",

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.admission import admit
-from umbilical.admission.statics import Steady, steady_slope
 from umbilical.errors import ScenarioError
+from umbilical.library import admit
+from umbilical.plant.checks.statics import Steady, steady_slope
 from umbilical.scenario import Scenario
 
 

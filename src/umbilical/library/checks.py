@@ -1,19 +1,15 @@
-"""All checks across fields. Each is a function whose parameters name the sections of the scenario it needs."""
+"""All checks across fields, from every room. Each is a function whose parameters name the sections it needs."""
 
 from __future__ import annotations
 
-from umbilical.admission import (
-    controller,
-    equipment,
-    inherited,
-    motion,
-    sampling,
-    sizes,
-    statics,
-    steps,
-    timeline,
-    weights,
-)
+from umbilical.control import nominal
+from umbilical.control.allocation import adaptive
+from umbilical.control.motor import backstepping
+from umbilical.control.observers import disturbance, high_gain
+from umbilical.control.outer import table as outer
+from umbilical.control.outer.table import LAWS
+from umbilical.library import inherited
+from umbilical.plant.checks import equipment, motion, sizes, statics, steps, timeline, weights
 from umbilical.plant.forces.table import FORCES
 
 CHECKS = (
@@ -39,6 +35,7 @@ CHECKS = (
     statics.static_slope,
     motion.vessel_is_continuous,
     motion.vessel_moves_like_one,
+    motion.vessel_moves_like_one,
     motion.vessel_at_the_start,
     equipment.motors_are_there,
     equipment.thrust_coefficients,
@@ -47,20 +44,19 @@ CHECKS = (
     equipment.intermittent_faults,
     equipment.stuck_once_at_a_time,
     equipment.latencies,
-    controller.sections_of_the_law,
-    controller.ideal_sensors,
-    controller.motor_loop,
+    outer.sections_of_the_law,
+    outer.ideal_sensors,
+    backstepping.motor_loop,
     inherited.gains_of_other_motors,
-    controller.adaptation,
-    controller.adaptation_has_its_error,
-    controller.nominal,
-    controller.grid_near_the_payload,
-    sampling.high_gain_observers,
-    sampling.boundary_law,
-    sampling.proportional_derivative,
-    sampling.disturbance_observer,
-    sampling.adaptation,
-    sampling.motor_loop,
+    adaptive.adaptation,
+    adaptive.adaptation_has_its_error,
+    nominal.nominal,
+    steps.grid_near_the_payload,
+    high_gain.high_gain_observers,
+    *(check for law in LAWS.values() for check in law.checks),
+    disturbance.disturbance_observer,
+    adaptive.leak,
+    backstepping.sampled_gains,
     steps.waves,
     steps.damping,
     steps.waves_that_leave,
