@@ -403,7 +403,7 @@ def test_the_message_shows_value_and_unit() -> None:
         "motors.2.resistance = -0.08 ohm",
         "    allowed: above 0 and at most 1e+12 ohm",
         "    because: it limits the current of a stalled motor",
-        "    cure:    ohm",
+        "    cure:    give above 0 and at most 1e+12 ohm",
     ]
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.library.recorded import files_of
 from umbilical.errors import ScenarioError
+from umbilical.library.recorded import files_of
 
 SINES = ((0.5, 0.5, 0.0), (0.3, 0.8, 1.0), (0.1, 1.3, 2.0))
 TOML = """extends = "ringdown"
