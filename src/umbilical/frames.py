@@ -50,7 +50,7 @@ def part(frame: type[F]) -> F:
 
 
 def numbers(record: Frame) -> tuple[Any, ...]:
-    """Copy the numbers of one record; a part becomes a tuple of its own."""
+    """Copy the numbers of one record, or of an array of one; a part becomes a tuple of its own."""
     return record.item()  # pyright: ignore[reportAttributeAccessIssue]
 
 

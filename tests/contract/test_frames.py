@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 from umbilical import compile as compiling
+from umbilical.control.contract import Measurement, MotorReadings, TipReadings, WinchReadings
 from umbilical.frames import Frame, integer, numbers, part, real, vector
 from umbilical.quantities import CHANNELS, PARAMETERS, STATES, find
 
@@ -85,3 +88,9 @@ def test_numbers_are_copied() -> None:
     before = numbers(record)
     record.tip_velocity = np.inf
     assert before == (1.0, 2.0)
+
+
+def test_a_measurement_has_the_names_of_the_readings() -> None:
+    """In any order: in Python the rates come last, since they may be absent."""
+    declared = [*TipReadings.fields, *MotorReadings.fields, *WinchReadings.fields]
+    assert sorted(field.name for field in fields(Measurement)) == sorted(declared)

@@ -33,7 +33,7 @@ def updates(controller: Cascade, samples: list[Measurement]) -> tuple[list[Comma
 
 def test_first_update_advances_no_filter() -> None:
     """On the first sample the observers are at rest, so the law sees slope and tension only."""
-    (command,), (memory, decision) = updates(Cascade(umbilical.load("paper")), [SAMPLE])
+    (command,), (memory, decision, _) = updates(Cascade(umbilical.load("paper")), [SAMPLE])
     tension = 500.0 * (10.0 - 0.1)
     assert command.thrust == pytest.approx(-1e4 * 0.01 * 0.01 + tension * 0.01, rel=1e-14)
     outer = memory.outer[0]
@@ -44,7 +44,7 @@ def test_first_update_advances_no_filter() -> None:
 
 def test_second_update_advances_every_filter_once() -> None:
     moved = replace(SAMPLE, tip_displacement=0.21, tip_slope=0.012)
-    _, (memory, decision) = updates(Cascade(umbilical.load("paper")), [SAMPLE, moved])
+    _, (memory, decision, _) = updates(Cascade(umbilical.load("paper")), [SAMPLE, moved])
     eps, h = 0.005, 1e-3
     step = h / eps * np.exp(-h / eps)  # pi2 after one period of a unit step
     assert memory.outer[0].velocity.filtered_rate == pytest.approx(0.01 * step, rel=1e-9)
@@ -112,7 +112,7 @@ def test_beliefs_are_the_controllers_and_not_the_plants() -> None:
 
 def test_believed_factors_share_the_thrust() -> None:
     believed = {"control.nominal.thrust_coefficients": [3.0, -1.0]}
-    (command,), (_, decision) = updates(Cascade(umbilical.load("paper", believed)), [SAMPLE])
+    (command,), (_, decision, _) = updates(Cascade(umbilical.load("paper", believed)), [SAMPLE])
     assert command.thrust is not None
     assert decision.motors["demand"].tolist() == [command.thrust / 4.0, -command.thrust / 4.0]
 

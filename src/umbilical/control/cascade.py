@@ -277,16 +277,17 @@ class Cascade:
         self._scenario = scenario
         self._settings = make_settings(scenario)
 
-    def start(self, measurement: Measurement) -> tuple[CascadeState, Decision]:
-        """Memory and decision before the first update."""
-        state = make_state(self._scenario)
-        start(self._settings, state, to_readings(measurement))
-        return state, make_decision(len(self._scenario.motors))
+    def start(self, measurement: Measurement) -> tuple[CascadeState, Decision, Readings]:
+        """Memory and decision before the first update, and room for readings."""
+        state, readings = make_state(self._scenario), to_readings(measurement)
+        start(self._settings, state, readings)
+        return state, make_decision(len(self._scenario.motors)), readings
 
     def update(self, t: float, measurement: Measurement, state: Any) -> tuple[Command, Any]:
         """Thrust and voltages from the kernels; ``state`` is changed in place and handed back."""
-        memory, decision = state
-        update(self._settings, memory, to_readings(measurement), decision)
+        memory, decision, readings = state
+        fill_readings(readings, measurement)
+        update(self._settings, memory, readings, decision)
         thrust = float(decision.outer["thrust_command"][0])
         voltage = None if self._scenario.ideal_thruster else decision.motors["motor_voltage"].copy()
         return Command(thrust, voltage), state
@@ -295,10 +296,15 @@ class Cascade:
 def to_readings(m: Measurement) -> Readings:
     """A measurement as kernels take it; absent sensors read NaN."""
     readings = make_readings(m.motor_speed.size)
+    fill_readings(readings, m)
+    return readings
+
+
+def fill_readings(readings: Readings, m: Measurement) -> None:
+    """Put a measurement into readings, record by record."""
     velocity = np.nan if m.tip_velocity is None else m.tip_velocity
     slope_rate = np.nan if m.tip_slope_rate is None else m.tip_slope_rate
     readings.tip[0] = (m.tip_displacement, m.tip_slope, velocity, slope_rate)
     readings.winch[0] = (m.length, m.payout_speed, m.payout_acceleration)
     readings.motors["motor_speed"] = m.motor_speed
     readings.motors["motor_current"] = m.motor_current
-    return readings

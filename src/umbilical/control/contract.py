@@ -153,12 +153,10 @@ def make_decision(motors: int) -> Decision:
 
 def to_measurement(readings: Readings, ideal_velocity: bool) -> Measurement:
     """The sample as a user's controller sees it; arrays are copies."""
-    displacement, slope, *rates = numbers(readings.tip[0])
-    return Measurement(
-        displacement,
-        slope,
-        readings.motors["motor_speed"].copy(),
-        readings.motors["motor_current"].copy(),
-        *numbers(readings.winch[0]),
-        *(rates if ideal_velocity else ()),
-    )
+    displacement, slope, velocity, slope_rate = numbers(readings.tip)
+    length, speed, acceleration = numbers(readings.winch)
+    motors = readings.motors
+    w, i = motors["motor_speed"].copy(), motors["motor_current"].copy()
+    if ideal_velocity:
+        return Measurement(displacement, slope, w, i, length, speed, acceleration, velocity, slope_rate)
+    return Measurement(displacement, slope, w, i, length, speed, acceleration)

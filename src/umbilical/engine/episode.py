@@ -223,7 +223,7 @@ class Episode:
         """Put a command where the kernels find it."""
         world = self._setup.world
         loop.check_command(command, world, self.time, can_drive=self._settings.motors.driven)
-        world.decision.outer[0].thrust_command = np.nan if command.thrust is None else command.thrust
+        world.decision.outer["thrust_command"][0] = np.nan if command.thrust is None else command.thrust
         if command.voltage is not None:
             world.decision.motors["motor_voltage"] = command.voltage
         self._driven = command.voltage is None and not world.plant.ideal

@@ -42,7 +42,7 @@ def vectors(scenario: Scenario) -> Iterator[Vector]:
         if state is None:
             state = controller.start(measurement)
         _, state = controller.update(k * controller.period, measurement, state)
-        memory, decision = state
+        memory, decision, _ = state
         yield Vector(measurement, decision.outer.copy(), decision.motors.copy(), memory.kappa.copy())  # pyright: ignore[reportAttributeAccessIssue]
 
 
