@@ -16,7 +16,7 @@ from umbilical.run import Status
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
 COMMANDS = (
     "run", "show", "compare", "export", "plot", "animate", "certify", "reproduce", "sweep", "member", "tune", "verify",
-    "margins", "design", "operate", "lower", "presets", "schema", "doctor", "bench",
+    "margins", "design", "operate", "lower", "presets", "schema", "doctor",
 )  # fmt: skip
 
 
@@ -26,7 +26,6 @@ COMMANDS = (
         (["--help"], (*HEAVY, "pydantic")),
         (["--version"], (*HEAVY, "pydantic")),
         (["run", "--help"], HEAVY),  # typer reads arguments with pydantic
-        (["bench", "--help"], HEAVY),
     ],
 )
 def test_help_imports_nothing_heavy(arguments, heavy):

@@ -14,7 +14,6 @@ import typer
 from umbilical import __version__
 from umbilical.cli import (
     animating,
-    benching,
     certifying,
     designing,
     doctoring,
@@ -69,7 +68,6 @@ for command in (
     listing.presets,
     listing.schema,
     doctoring.doctor,
-    benching.bench,
     verifying.verify,
 ):
     app.command()(command)

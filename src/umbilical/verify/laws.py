@@ -10,13 +10,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.bench import reference as paper
 from umbilical.control.motor import backstepping
 from umbilical.control.motor.command_filter import Reference
 from umbilical.control.outer import boundary
 from umbilical.library import load
 from umbilical.relations.formulas import motor_constants
 from umbilical.verify.cases import Case, Check, history_close
+from umbilical.verify.references import paper
 
 STATES = 200
 ROUND_OFF = 1e-12

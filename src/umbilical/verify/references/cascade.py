@@ -3,7 +3,7 @@
 The cable is one piece: polynomials in sigma = x/l up to a degree, from Hamilton's principle on the moving domain. With
 ``y = sum_j q_j phi_j`` and ``phi_j`` the integral of a Legendre polynomial, only q_0 moves the ROV and the slope there
 is the sum of all q over l. For smooth loads the error in space falls faster than any power of the degree. Controller
-and motors are those of :mod:`umbilical.bench.reference`, which uses nothing of the engine either.
+and motors are those of :mod:`umbilical.verify.references.paper`, which uses nothing of the engine either.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import numpy as np
 from numpy.polynomial import legendre
 from scipy.integrate import solve_ivp
 
-from umbilical.bench import reference as paper
 from umbilical.verify.cases import CaseError
+from umbilical.verify.references import paper
 
 Array = np.ndarray
 

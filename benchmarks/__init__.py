@@ -1,5 +1,5 @@
 """How fast the paper's 50 s run on this machine, and against what. Times are measured, never asserted."""
 
-from umbilical.bench.measure import Bench, Row, measure_all
+from benchmarks.measure import Bench, Row, measure_all
 
 __all__ = ["Bench", "Row", "measure_all"]

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from benchmarks import measure
+from benchmarks.measure import Row, measure_all
 from umbilical import load, simulate
-from umbilical.bench import measure, reference
-from umbilical.bench.measure import Row, measure_all
+from umbilical.verify.references import paper as reference
 
 
 @pytest.fixture(scope="module")

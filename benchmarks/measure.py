@@ -1,4 +1,4 @@
-"""The rows of ``umbilical bench``, all measured in one go."""
+"""The rows of ``python3 do.py bench``, all measured in one go."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from umbilical.bench.machine import machine, peak_of_children
-from umbilical.bench.rows import Row
-from umbilical.bench.study import memory_row, study_rows
+from benchmarks.machine import machine, peak_of_children
+from benchmarks.rows import Row
+from benchmarks.study import memory_row, study_rows
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -143,10 +143,10 @@ def _others(members: int) -> list[Row]:
     """The same run by other means, and a study of many."""
     import numpy as np
 
-    from umbilical.bench.reference import displacement
     from umbilical.control.cascade import Cascade
     from umbilical.engine.simulate import simulate
     from umbilical.library import load
+    from umbilical.verify.references.paper import displacement
 
     short = load("paper").replace({"duration": PYTHON_LOOP})
     simulate(short.replace({"duration": 0.1}), Cascade(short))

@@ -8,8 +8,8 @@ import tempfile
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from umbilical.bench.machine import peak_of_children
-from umbilical.bench.rows import Row
+from benchmarks.machine import peak_of_children
+from benchmarks.rows import Row
 
 if TYPE_CHECKING:
     from umbilical.studies.study import Study
