@@ -182,6 +182,15 @@ STATES: dict[str, Quantity] = {
     "stuck_thrust":            Quantity("rad2/s2", "u_k", "value at which a motor's thrust demand is stuck", "(16)"),
     "drive_effectiveness":     Quantity("1", "", "share of its voltage that reaches a motor"),
     "stuck_voltage":           Quantity("V", "", "value at which a motor's voltage is stuck"),
+    # rope
+    "vessel_position":         Quantity("m", r"\mathbf{r}_v", "place of the sheave in space"),
+    "vessel_speed":            Quantity("m/s", r"\mathbf{r}_v'", "velocity of the sheave in space"),
+    "body_force":              Quantity("N", r"\mathbf{d}", "external force on the body in space"),
+    "body_thrust":             Quantity("N", r"\boldsymbol{\alpha}", "thrust on the body in space"),
+    "entering_stretch":        Quantity("1", r"\mathbf{p}^*", "r_x of the cable that passes the sheave"),
+    "top_velocity":            Quantity("m/s", r"\mathbf{W}^*", "velocity of the cable at the sheave"),
+    "top_pull":                Quantity("N", r"N\mathbf{t}(0)", "tension vector at the sheave"),
+    "end_pull":                Quantity("N", r"N\mathbf{t}(l)", "tension vector at the body"),
     # step of the plant
     "tip_rates":               Quantity("m/s2", "", "rates of the ROV velocity at the last three instants, without thrust and external force"),
     "known_rates":             Quantity("1", "", "rates known before the present one"),

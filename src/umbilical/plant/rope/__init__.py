@@ -1,0 +1,1 @@
+"""The rope: an elastic cable in space, slack included, paid out and hauled in, with the body at its end."""

@@ -1,0 +1,170 @@
+"""Constants and state of the rope. Axes: x and y horizontal, z up from the water's surface.
+
+Arrays along the cable lie as in ``plant/layout.py``: row j holds node j of every element, and the columns are
+components one after the other, each of them n elements long.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.frames import Frame, real, vector
+from umbilical.plant.layout import positions, to_elements
+
+AXES = 3
+STAGES = 3
+"""Of the step, at its start, its end and its middle (``plant/rope/step.py``)."""
+POWERS = (
+    "work_thrust", "work_payload_force", "work_payload_damping", "work_vessel", "work_cable_damping", "work_cable_load",
+    "work_weight", "work_drag", "work_added_mass", "work_grid",
+)  # fmt: skip
+"""Terms of the power balance, in the order of ``RopeState.power``."""
+THRUST, FORCE, BODY_DRAG, VESSEL, DAMPING, LOAD, WEIGHT, DRAG, ADDED, GRID = range(10)
+
+
+class Rope(NamedTuple):
+    """Constants of cable and body, SI units; vectors have the shape (3,).
+
+    Attributes:
+        stiffness: EA, N.
+        density: dry, flooded water included, kg/m.
+        weight: in water, N/m; below 0 it floats.
+        added: added mass across the cable rho_a, kg/m.
+        displaced: water that the cable displaces, kg/m.
+        normal_drag, tangential_drag: drag per metre over the square of the speed, N s2/m3.
+        damping: linear damping of the horizontal velocity, N s/m2.
+        inertia: m + A of the body along each axis, kg.
+        moved_water: A and the displaced mass, which follow the water's acceleration, kg.
+        body_weight: in water, N.
+        body_damping, body_drag: linear, N s/m, and quadratic, N s2/m2, along each axis.
+        above: 1 - sigma at the nodes, shape (5, n).
+        above_faces: 1 - sigma where elements meet, both ends included, shape (n + 1,).
+        profiles: of the loads along the cable, shape (loads, 5, n).
+        wet: whether the water moves, drags or is moved.
+    """
+
+    stiffness: float
+    density: float
+    weight: float
+    added: float
+    displaced: float
+    normal_drag: float
+    tangential_drag: float
+    damping: float
+    inertia: np.ndarray
+    moved_water: np.ndarray
+    body_weight: float
+    body_damping: np.ndarray
+    body_drag: np.ndarray
+    above: np.ndarray
+    above_faces: np.ndarray
+    profiles: np.ndarray
+    wet: bool
+
+
+class RopeOutside(Frame):
+    """What winch, vessel and loads do at an instant."""
+
+    length = real()
+    payout_speed = real()
+    vessel_position = vector(3)
+    vessel_speed = vector(3)
+    body_force = vector(3)
+    body_thrust = vector(3)
+
+
+class RopeEnds(Frame):
+    """Both ends of the cable: r_x that enters at the vessel, and the tension vectors at vessel and body."""
+
+    entering_stretch = vector(3)
+    top_velocity = vector(3)
+    top_pull = vector(3)
+    end_pull = vector(3)
+
+
+class Water(NamedTuple):
+    """Velocity and acceleration of the water at some heights, at the stages of one step.
+
+    Attributes:
+        heights: m, decreasing from the surface, shape (levels,); beyond them the outermost values hold.
+        flow: velocity, m/s, and acceleration, m/s2, shape (stages, levels, 6).
+    """
+
+    heights: np.ndarray
+    flow: np.ndarray
+
+
+class RopeState(NamedTuple):
+    """Everything that moves, and room to work in.
+
+    Attributes:
+        now: l r_x and the velocity W = Dr/Dt at the nodes, shape (5, 6 n).
+        base: the same at the start of the step.
+        rate: their rates, shape (5, 6 n).
+        pull: N t at the nodes, N, shape (5, 3 n).
+        stretch: |r_x| at the nodes, shape (5, n).
+        gradient: d/dsigma of l r_x, W and N t, shape (5, 9 n).
+        star: W and N t where elements meet, shape (6, n + 1).
+        flow: velocity and acceleration of the water at the nodes, shape (5, 6 n).
+        joints: r where elements meet, m, shape (3, n + 1).
+        height: z at the nodes, m, shape (5, n).
+        body: velocity of the body, the same at the start of the step, and its rate, shape (3, 3).
+        body_flow: velocity and acceleration of the water at the body, shape (6,).
+        outside: the present instant, one record.
+        ends: one record.
+        power, work: terms of the power balance, W and J, in the order of :data:`POWERS`.
+        slack: lowest and highest tension so far at each node, N, shape (2, 5, n).
+    """
+
+    now: np.ndarray
+    base: np.ndarray
+    rate: np.ndarray
+    pull: np.ndarray
+    stretch: np.ndarray
+    gradient: np.ndarray
+    star: np.ndarray
+    flow: np.ndarray
+    joints: np.ndarray
+    height: np.ndarray
+    body: np.ndarray
+    body_flow: np.ndarray
+    outside: RopeOutside
+    ends: RopeEnds
+    power: np.ndarray
+    work: np.ndarray
+
+
+def make_state(elements: int) -> RopeState:
+    """A rope of no length at rest."""
+    n = elements
+    return RopeState(
+        now=np.zeros((5, 6 * n)),
+        base=np.zeros((5, 6 * n)),
+        rate=np.zeros((5, 6 * n)),
+        pull=np.zeros((5, 3 * n)),
+        stretch=np.zeros((5, n)),
+        gradient=np.zeros((5, 9 * n)),
+        star=np.zeros((6, n + 1)),
+        flow=np.zeros((5, 6 * n)),
+        joints=np.zeros((3, n + 1)),
+        height=np.zeros((5, n)),
+        body=np.zeros((3, 3)),
+        body_flow=np.zeros(6),
+        outside=RopeOutside.many(1),
+        ends=RopeEnds.many(1),
+        power=np.zeros(len(POWERS)),
+        work=np.zeros(len(POWERS)),
+    )
+
+
+def make_above(elements: int) -> tuple[np.ndarray, np.ndarray]:
+    """1 - sigma at the nodes, shape (5, n), and where elements meet, shape (n + 1,)."""
+    above = 1.0 - positions(elements)
+    return np.ascontiguousarray(to_elements(above)), np.ascontiguousarray(above[::4])
+
+
+def vector_of(value: float | np.ndarray | tuple[float, ...]) -> np.ndarray:
+    """A number for all axes, or one for each, as an array of shape (3,)."""
+    return np.ascontiguousarray(np.broadcast_to(np.asarray(value, dtype=float), (AXES,)))

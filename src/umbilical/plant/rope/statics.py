@@ -1,0 +1,145 @@
+"""The rope at rest: its shape in a current, and the state of the grid that keeps still.
+
+From the body upwards the tension vector G = N t is known: G(l) = drag of the body - W z, and with s = l - x
+
+::
+
+    G_s = f,   r_s = -(1 + |G|/EA) G/|G|
+
+where f is drag less weight per metre; where water slides along a bent cable, its added mass takes part of the tension.
+Only the depth of the body is unknown before the sheave is reached.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from umbilical.plant.elements import NODES
+from umbilical.plant.rope.records import Rope, RopeState, Water
+from umbilical.plant.rope.step import derive_rope, refresh_rope
+
+_WIDEST = 1.5
+"""The body is looked for between the sheave's height plus and minus this times the length."""
+
+
+class Shape(NamedTuple):
+    """A shape at rest: r_x at some places, shape (..., 3), and where the body is, m, shape (3,)."""
+
+    slopes: np.ndarray
+    body: np.ndarray
+
+
+def flow_in(water: Water, height: float) -> np.ndarray:
+    """Velocity of the water at a height, m/s, shape (3,), at the first stage."""
+    known = water.heights[::-1]
+    return np.array([np.interp(height, known, water.flow[0, ::-1, i]) for i in range(3)])
+
+
+def hanging_shape(
+    rope: Rope, water: Water, length: float, vessel: np.ndarray, force: np.ndarray, sigma: np.ndarray
+) -> Shape:
+    """Shape at rest under weight, current and a force on the body, N, shape (3,); at positions ``sigma``, any shape.
+
+    Raises:
+        ValueError: nothing pulls at the lower end, or no depth of the body meets the sheave.
+    """
+
+    def along(s: float, y: np.ndarray) -> np.ndarray:
+        pull = y[:3]
+        size = float(np.sqrt(pull @ pull))
+        t = pull / size
+        u = flow_in(water, y[5])
+        slide = u @ t
+        across = u - slide * t
+        drag = rope.normal_drag * np.sqrt(across @ across) * across + rope.tangential_drag * abs(slide) * slide * t
+        force = drag - np.array([0.0, 0.0, rope.weight])
+        normal = force - (force @ t) * t
+        taken = rope.added * slide * slide / (1.0 + size / rope.stiffness)
+        force = force + normal * taken / (size - taken)
+        return np.concatenate([force, -(1.0 + size / rope.stiffness) * t])
+
+    def from_depth(height: float, **options: Any) -> Any:
+        u = flow_in(water, height)
+        pull = (rope.body_damping + rope.body_drag * np.abs(u)) * u + force - np.array([0.0, 0.0, rope.body_weight])
+        if not pull.any():
+            raise ValueError("nothing pulls at the lower end of the cable")
+        start = np.concatenate([pull, [0.0, 0.0, height]])
+        return solve_ivp(along, (0.0, length), start, method="DOP853", rtol=1e-11, atol=1e-9, **options)
+
+    def miss(height: float) -> float:
+        return float(from_depth(height).y[5, -1] - vessel[2])
+
+    reach = _WIDEST * length
+    height = vessel[2] + (from_depth(vessel[2]).y[5, 0] - from_depth(vessel[2]).y[5, -1])
+    if water.heights.size > 1:
+        height = brentq(miss, vessel[2] - reach, vessel[2] + reach, xtol=1e-9)  # pyright: ignore[reportAssignmentType]
+    found = from_depth(height, dense_output=True)
+    pull = found.sol(length * (1.0 - np.ravel(sigma)))[:3].T
+    size = np.sqrt((pull**2).sum(axis=1, keepdims=True))
+    slopes = (1.0 / size + 1.0 / rope.stiffness) * pull
+    way = np.array([*(vessel[:2] - found.y[3:5, -1]), height])
+    return Shape(slopes.reshape(*np.shape(sigma), 3), way)
+
+
+def node_positions(elements: int) -> np.ndarray:
+    """sigma at the nodes, shape (5, n)."""
+    return (np.arange(elements) + (NODES[:, None] + 1.0) / 2.0) / elements
+
+
+def put_shape(state: RopeState, slopes: np.ndarray, length: float) -> None:
+    """Set l r_x from r_x at the nodes, shape (5, n, 3)."""
+    n = slopes.shape[1]
+    state.now[:, : 3 * n] = length * np.moveaxis(slopes, 2, 1).reshape(5, 3 * n)
+
+
+def unknowns(state: RopeState) -> np.ndarray:
+    """Everything that has a rate, shape (30 n + 3,)."""
+    return np.concatenate([state.now.ravel(), state.body[0]])
+
+
+def rates_at(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, values: np.ndarray) -> np.ndarray:
+    """Rates of :func:`unknowns` at these values; the state keeps them."""
+    size = state.now.size
+    state.now[:] = values[:size].reshape(state.now.shape)
+    state.body[0] = values[size:]
+    derive_rope(rope, state, loads, water)
+    return np.concatenate([state.rate.ravel(), state.body[2]])
+
+
+def jacobian(rope: Rope, state: RopeState, loads: np.ndarray, water: Water) -> np.ndarray:
+    """Derivative of the rates after the unknowns by central differences, shape (30 n + 3, 30 n + 3)."""
+    at = unknowns(state).copy()
+    columns = np.zeros((at.size, at.size))
+    stretched = 1e-6 * state.outside[0].length * min(1.0, 1e3 * _load(rope) / rope.stiffness)
+    half = state.now.shape[1] // 2
+    places = np.arange(state.now.size) % state.now.shape[1] < half
+    steps = np.append(np.where(places, stretched, 1e-4), np.full(3, 1e-4))
+    for k, step in enumerate(steps):
+        ends = [rates_at(rope, state, loads, water, at + sign * step * (np.arange(at.size) == k)) for sign in (1, -1)]
+        columns[:, k] = (ends[0] - ends[1]) / (2.0 * step)
+    rates_at(rope, state, loads, water, at)
+    return columns
+
+
+def _load(rope: Rope) -> float:
+    return abs(rope.body_weight) + rope.weight + 1.0
+
+
+def settle(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, *, rounds: int = 8) -> float:
+    """Newton's method for the state that keeps still with the winch stopped; the largest rate that is left, SI units."""
+    rest = np.inf
+    for _ in range(rounds):
+        at = unknowns(state).copy()
+        rates = rates_at(rope, state, loads, water, at)
+        size = float(np.abs(rates).max())
+        if not size < 0.9 * rest or size == 0.0:
+            break
+        rest = size
+        change = np.linalg.lstsq(jacobian(rope, state, loads, water), -rates, rcond=1e-13)[0]
+        rates_at(rope, state, loads, water, at + change)
+    refresh_rope(rope, state)
+    return rest
