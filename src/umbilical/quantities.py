@@ -17,7 +17,8 @@ class Quantity(NamedTuple):
         meaning: one short line, also the ``long_name`` in result files.
         source: equation, table or section of the paper; "" for what is ours.
         clash: the other meaning the paper gives the same symbol, if any.
-        over: what a channel depends on besides time: "sigma", "motor" or "kappa_index"; "" for time alone.
+        over: what a channel depends on besides time: "sigma", "motor", "kappa_index", "axis", or two of them with a
+            space between; "" for time alone.
     """
 
     unit: str
@@ -116,6 +117,28 @@ PARAMETERS: dict[str, Quantity] = {
     "motor_observer_gain": Quantity("1/s", "g_o", "gain of the motor disturbance observer", "(61)", "the paper prints the inductance L_a"),
     "filter_frequency":    Quantity("rad/s", r"\omega_c", "poles of the command filter"),
     "root_width":          Quantity("rad2/s2", "s", "softening of the signed root of the demand"),
+    # rope
+    "axial_stiffness":     Quantity("N", "EA", "force over strain of the cable"),
+    "line_weight":         Quantity("N/m", "w", "weight of a metre of cable in water; negative floats"),
+    "cable_diameter":      Quantity("m", "d", "diameter of the cable"),
+    "normal_drag":         Quantity("1", "C_{dn}", "drag coefficient across the cable"),
+    "tangential_drag":     Quantity("1", "C_{dt}", "drag coefficient along the cable, over its circumference"),
+    "added_mass":          Quantity("1", "C_a", "added mass across the cable over the displaced water"),
+    "body_added_mass":     Quantity("kg", "A", "added mass of the body along x, y, z"),
+    "body_drag":           Quantity("N s2/m2", "D_q", "drag of the body over the square of the speed, along x, y, z"),
+    "body_displaced":      Quantity("kg", "", "water that the body displaces: it follows waves"),
+    "water_height":        Quantity("m", "z", "height over the surface, negative below"),
+    "water_speed":         Quantity("m/s", "u", "velocity of the water"),
+    "thrust_direction":    Quantity("rad", "", "direction of each motor's thrust, 0 along x, pi/2 along y"),
+    "significant_height":  Quantity("m", "H_s", "significant wave height"),
+    "peak_period":         Quantity("s", "T_p", "peak period of the waves"),
+    "peakedness":          Quantity("1", r"\gamma", "peakedness of JONSWAP"),
+    "wave_heading":        Quantity("rad", "", "where the waves go, from the bow: 0 following, pi head sea"),
+    "ship_length":         Quantity("m", "", "length of the vessel at the waterline"),
+    "ship_breadth":        Quantity("m", "", "breadth of the vessel at the waterline"),
+    "ship_draught":        Quantity("m", "", "draught of the vessel"),
+    "block_coefficient":   Quantity("1", "", "displaced volume over length, breadth, draught"),
+    "sheave_forward":      Quantity("m", "", "sheave forward of midship"),
     # numerics
     "plant_step":          Quantity("s", "", "largest step of the plant; shorter where the waves on the cable demand it"),
     "output_interval":     Quantity("s", "", "time between stored samples"),
@@ -151,6 +174,9 @@ CHANNELS: dict[str, Quantity] = {
     "work_cable_damping":      Quantity("J", "", "work of the cable's damping"),
     "work_cable_load":         Quantity("J", "", "work of the load along the cable"),
     "work_tension":            Quantity("J", "", "work of the changing tension (winch jerk)"),
+    "work_weight":             Quantity("J", "", "work of the weights in water"),
+    "work_drag":               Quantity("J", "", "work of the drag on the cable"),
+    "work_added_mass":         Quantity("J", "", "work of the water that cable and body move, and of its acceleration"),
     "work_grid":               Quantity("J", "", "taken by the grid from waves it cannot carry (upwind flux)"),
     # motors
     "motor_speed":             Quantity("rad/s", r"\omega", "motor speed", "(15)", over="motor"),
@@ -162,6 +188,20 @@ CHANNELS: dict[str, Quantity] = {
     "motor_disturbance_estimate": Quantity("rad/s3", r"\hat d_{\Delta 2}", "estimated scaled voltage disturbance", "(61)", over="motor"),
     "effectiveness":           Quantity("1", r"\rho_i", "effectiveness of the motor's thrust", "(16)", over="motor"),
     "kappa":                   Quantity("", r"\kappa", "adaptive allocation: kappa_0 in rad2/(N s2), kappa_1 ... kappa_n in rad2/s2", "(23)", over="kappa_index"),
+    # rope: in space, x along the string's displacement, y across it, z up
+    "vessel_position":         Quantity("m", r"\mathbf{r}_v", "place of the sheave in space", over="axis"),
+    "body_position":           Quantity("m", r"\mathbf{r}(l)", "place of the body in space", over="axis"),
+    "body_velocity":           Quantity("m/s", r"\mathbf{V}", "velocity of the body in space", over="axis"),
+    "body_thrust":             Quantity("N", r"\boldsymbol{\alpha}", "thrust on the body in space", over="axis"),
+    "thrust_command_across":   Quantity("N", r"\alpha_c", "commanded thrust in the direction y"),
+    "boundary_error_across":   Quantity("m/s", "u_a", "boundary variable of the direction y"),
+    "disturbance_estimate_across": Quantity("N", r"\hat D", "estimated disturbance of the body in the direction y"),
+    "top_tension":             Quantity("N", "N(0)", "tension at the sheave"),
+    "end_tension":             Quantity("N", "N(l)", "tension at the body"),
+    "lowest_tension":          Quantity("N", "", "smallest tension along the cable"),
+    "slack_length":            Quantity("m", "", "length of cable that nothing pulls"),
+    "position":                Quantity("m", r"\mathbf{r}", "place of the cable in space", over="axis sigma"),
+    "tension":                 Quantity("N", "N", "tension along the cable", over="sigma"),
     # along the cable
     "displacement":            Quantity("m", "y", "transverse displacement of the cable", "(6)", over="sigma"),
     "slope":                   Quantity("1", "y_x", "slope of the cable", "(6)", over="sigma"),
@@ -183,10 +223,10 @@ STATES: dict[str, Quantity] = {
     "drive_effectiveness":     Quantity("1", "", "share of its voltage that reaches a motor"),
     "stuck_voltage":           Quantity("V", "", "value at which a motor's voltage is stuck"),
     # rope
-    "vessel_position":         Quantity("m", r"\mathbf{r}_v", "place of the sheave in space"),
     "vessel_speed":            Quantity("m/s", r"\mathbf{r}_v'", "velocity of the sheave in space"),
     "body_force":              Quantity("N", r"\mathbf{d}", "external force on the body in space"),
-    "body_thrust":             Quantity("N", r"\boldsymbol{\alpha}", "thrust on the body in space"),
+    "thrust_before":           Quantity("N", "", "thrust on the body at the start of a step"),
+    "tip_tension":             Quantity("N", "N(l)", "tension at the ROV as it is measured; 0 where the controller works it out"),
     "entering_stretch":        Quantity("1", r"\mathbf{p}^*", "r_x of the cable that passes the sheave"),
     "top_velocity":            Quantity("m/s", r"\mathbf{W}^*", "velocity of the cable at the sheave"),
     "top_pull":                Quantity("N", r"N\mathbf{t}(0)", "tension vector at the sheave"),
@@ -209,6 +249,10 @@ STATES: dict[str, Quantity] = {
     "slope_weights":           Quantity("1", "", "weights of an element's slopes in the displacement gained in it"),
     "peak":                    Quantity("", "", "largest size so far, in the unit of what is measured"),
     "squares":                 Quantity("", "", "sum of squares so far, in the squared unit of what is measured"),
+    "slack_samples":           Quantity("1", "", "control samples with slack so far"),
+    "was_slack":               Quantity("1", "", "1 if the last control sample had slack"),
+    "snap_time":               Quantity("s", "", "instant at which the cable last became taut again"),
+    "snap_window":             Quantity("s", "", "time after slack within which a peak counts as its snap"),
     # constants of a motor written in z1 = w, z2 = (K_t/J) i
     "f11":                     Quantity("1/s", "f_{11}", "-B/J", "(44)"),
     "f12":                     Quantity("1/rad", "f_{12}", "-K_Q/J", "(44)"),
@@ -254,6 +298,14 @@ METRICS: dict[str, Quantity] = {
     "motor_current_peak":      Quantity("A", "", "largest |motor current|, over all motors"),
     "saturated_share":         Quantity("1", "", "share of the control samples with the drive at its voltage limit, over the motors that have one"),
     "thrust_gap":              Quantity("N", "", "root mean square of commanded minus delivered thrust"),
+    "top_tension_peak":        Quantity("N", "", "largest tension at the sheave"),
+    "end_tension_peak":        Quantity("N", "", "largest tension at the body"),
+    "lowest_tension":          Quantity("N", "", "smallest tension anywhere along the cable"),
+    "slack_share":             Quantity("1", "", "share of the control samples with slack somewhere along the cable"),
+    "snaps":                   Quantity("1", "", "times the cable became taut again after slack"),
+    "largest_snap":            Quantity("N", "", "largest tension within one axial period after slack"),
+    "watch_radius":            Quantity("m", "", "largest horizontal distance of the body from where it started"),
+    "smallest_stretch":        Quantity("1", "", "smallest |r_x|: below 1 an average over loops the grid does not resolve"),
     "energy_balance_residual": Quantity("1", "", "largest |energy - start - work| over the larger of largest energy and gross work"),
     "grid_loss":               Quantity("1", "", "energy the grid took, over the larger of largest energy and gross work"),
 }
@@ -274,7 +326,7 @@ CERTIFICATE: dict[str, Quantity] = {
 
 
 def find(name: str) -> Quantity:
-    """Look up what a name inside a loop stands for: a channel, a state or a parameter.
+    """Look up what a name inside a loop stands for: a channel, a state, a parameter or a metric.
 
     Raises:
         KeyError: there is no such quantity.
@@ -282,7 +334,7 @@ def find(name: str) -> Quantity:
     >>> find("tip_velocity").unit
     'm/s'
     """
-    for table in (CHANNELS, STATES, PARAMETERS):
+    for table in (CHANNELS, STATES, PARAMETERS, METRICS):
         if name in table:
             return table[name]
     raise KeyError(f"{name}: no channel, state or parameter of umbilical.quantities has this name")

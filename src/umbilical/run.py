@@ -59,6 +59,16 @@ PEAKS = {
 LARGEST_STORED = 1e100
 """No number of a completed run is larger."""
 
+
+def dimensions(name: str) -> tuple[str, ...]:
+    """Dimensions of a channel, time first.
+
+    >>> dimensions("position"), dimensions("length")
+    (('time', 'axis', 'sigma'), ('time',))
+    """
+    return ("time", *SECOND_DIMENSION.get(name, "").split())
+
+
 _METRIC = "metric_"
 _LOGGED = "controller_"
 _OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
@@ -84,7 +94,7 @@ class Run:
 
     Attributes:
         data: every channel with ``units``, ``long_name`` and ``symbol``, over ``time`` and where it applies ``sigma``
-            (x/l, 0 vessel, 1 ROV), ``motor`` (from 1) or ``kappa_index``; no dimension is ever dropped.
+            (x/l, 0 vessel, 1 ROV), ``motor`` (from 1), ``kappa_index`` or ``axis``; no dimension is ever dropped.
         scenario: what was simulated.
         timing: seconds spent, by part; of this process only, never stored.
 
@@ -239,8 +249,7 @@ def assemble(
 
 
 def _channel(name: str, values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
-    dims = ("time", SECOND_DIMENSION[name]) if name in SECOND_DIMENSION else ("time",)
-    return dims, np.asarray(values, dtype=float), _attributes(CHANNELS[name])
+    return dimensions(name), np.asarray(values, dtype=float), _attributes(CHANNELS[name])
 
 
 def _attributes(word: Quantity) -> dict[str, str]:
@@ -249,7 +258,9 @@ def _attributes(word: Quantity) -> dict[str, str]:
 
 def _coordinates(channels: Mapping[str, np.ndarray], time: np.ndarray, sigma: np.ndarray | None) -> dict[str, tuple]:
     """Values of every dimension that occurs: instants, positions, numbers of the motors from 1, of kappa from 0."""
-    sizes = {SECOND_DIMENSION[name]: values.shape[1] for name, values in channels.items() if name in SECOND_DIMENSION}
+    sizes = {
+        dim: size for name, values in channels.items() for dim, size in zip(dimensions(name), values.shape, strict=True)
+    }
     found: dict[str, tuple] = {"time": ("time", time, {"units": "s", "long_name": "time", "symbol": "t"})}
     if "sigma" in sizes:
         nodes = np.linspace(0.0, 1.0, sizes["sigma"]) if sigma is None else sigma
@@ -257,6 +268,9 @@ def _coordinates(channels: Mapping[str, np.ndarray], time: np.ndarray, sigma: np
         found["sigma"] = ("sigma", nodes, _attributes(PARAMETERS["sigma"]) | comment)
     if "motor" in sizes:
         found["motor"] = ("motor", np.arange(1, sizes["motor"] + 1), _attributes(Quantity("1", "i", "motor")))
+    if "axis" in sizes:
+        axes = {"comment": "0: x, along the string's displacement; 1: y, across it; 2: z, up"}
+        found["axis"] = ("axis", np.arange(sizes["axis"]), _attributes(Quantity("1", "", "axis")) | axes)
     if "kappa_index" in sizes:
         found["kappa_index"] = ("kappa_index", np.arange(sizes["kappa_index"]), _attributes(Quantity("1", "", "entry")))
     return found
@@ -319,8 +333,7 @@ def _wrong_arrays(data: xarray.Dataset) -> Iterator[str]:
     """What keeps arrays from being those of a run."""
     for name in map(str, data.variables):
         if name in CHANNELS:
-            dims = ("time", SECOND_DIMENSION[name]) if name in SECOND_DIMENSION else ("time",)
-            yield wrong_array(data[name], dims, "f")
+            yield wrong_array(data[name], dimensions(name), "f")
         elif name.startswith(_METRIC):
             yield wrong_array(data[name], (), "f")
         elif name in data.sizes:

@@ -219,7 +219,9 @@ def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: De
         out.thrust_command = pd_thrust(s.gains[0], s.gains[1], tip.tip_displacement, velocity)
         return
     error = boundary_error(s.gains[1], velocity, tip.tip_slope)
-    pull = tension(0.0, net_gravity(s.gravity, readings.winch[0].payout_acceleration), s.hanging)
+    pull = readings.winch[0].tip_tension
+    if pull == 0.0:
+        pull = tension(0.0, net_gravity(s.gravity, readings.winch[0].payout_acceleration), s.hanging)
     known = pull * tip.tip_slope + s.payload_damping * velocity
     if advance:
         held = out.thrust_command
@@ -305,6 +307,6 @@ def fill_readings(readings: Readings, m: Measurement) -> None:
     velocity = np.nan if m.tip_velocity is None else m.tip_velocity
     slope_rate = np.nan if m.tip_slope_rate is None else m.tip_slope_rate
     readings.tip[0] = (m.tip_displacement, m.tip_slope, velocity, slope_rate)
-    readings.winch[0] = (m.length, m.payout_speed, m.payout_acceleration)
+    readings.winch[0] = (m.length, m.payout_speed, m.payout_acceleration, m.tip_tension)
     readings.motors["motor_speed"] = m.motor_speed
     readings.motors["motor_current"] = m.motor_current

@@ -24,6 +24,16 @@ from umbilical.frames import Frame, numbers, real
 
 
 @dataclass(frozen=True, slots=True)
+class Across:
+    """What the sensors at the ROV read of the horizontal direction y of a rope; as in :class:`Measurement`."""
+
+    tip_displacement: float
+    tip_slope: float
+    tip_velocity: float | None = None
+    tip_slope_rate: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Measurement:
     """One sample of the sensors, as the controller gets it.
 
@@ -37,6 +47,9 @@ class Measurement:
         payout_acceleration: winch acceleration, m/s2.
         tip_velocity: Dy/Dt(l,t), m/s; None unless the scenario grants ``sensors.ideal_velocity``.
         tip_slope_rate: D(y_x)/Dt(l,t), 1/s; None likewise.
+        tip_tension: N(l), N, of the rope; 0 on the string, whose tension follows from weights.
+        across: of the rope, what the sensors of the direction y read at the ROV: displacement, slope and, where
+            granted, their rates.
     """
 
     tip_displacement: float
@@ -48,6 +61,8 @@ class Measurement:
     payout_acceleration: float
     tip_velocity: float | None = None
     tip_slope_rate: float | None = None
+    tip_tension: float = 0.0
+    across: Across | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +72,14 @@ class Command:
     Attributes:
         thrust: commanded thrust, N. Alone, it goes through the scenario's allocation and motor loops.
         voltage: motor voltages, V, shape (motors,). Alone or with ``thrust``, they go to the drives as they are.
+        thrust_across: commanded thrust in the direction y of a rope, N.
         log: numbers of the controller's own to keep in the run, as the channels ``controller_NAME``.
     """
 
     thrust: float | None = None
     voltage: np.ndarray | None = None
     log: Mapping[str, float] | None = None
+    thrust_across: float = 0.0
 
 
 @runtime_checkable
@@ -93,11 +110,12 @@ class TipReadings(Frame):
 
 
 class WinchReadings(Frame):
-    """One sample of the winch, which is known exactly."""
+    """One sample of the winch and of the load pin at a rope's end, which are known exactly."""
 
     length = real()
     payout_speed = real()
     payout_acceleration = real()
+    tip_tension = real()
 
 
 class MotorReadings(Frame):
@@ -154,9 +172,9 @@ def make_decision(motors: int) -> Decision:
 def to_measurement(readings: Readings, ideal_velocity: bool) -> Measurement:
     """The sample as a user's controller sees it; arrays are copies."""
     displacement, slope, velocity, slope_rate = numbers(readings.tip)
-    length, speed, acceleration = numbers(readings.winch)
+    length, speed, acceleration, pull = numbers(readings.winch)
     motors = readings.motors
     w, i = motors["motor_speed"].copy(), motors["motor_current"].copy()
-    if ideal_velocity:
-        return Measurement(displacement, slope, w, i, length, speed, acceleration, velocity, slope_rate)
-    return Measurement(displacement, slope, w, i, length, speed, acceleration)
+    if not ideal_velocity:
+        velocity, slope_rate = None, None
+    return Measurement(displacement, slope, w, i, length, speed, acceleration, velocity, slope_rate, pull)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
-from umbilical.engine.recording import Log, Tally, channels, inside, root_mean_square
+from umbilical.engine.recording import Log, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
 from umbilical.engine.setup import Setup
 from umbilical.plant.forces.table import WORKS
@@ -122,7 +122,8 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
 
 def all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
     """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
-    metrics = _metrics(setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement))
+    tally, tip = setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement)
+    metrics = base_metrics(tally, tip, slope_peak=float(tally.slopes.max()))
     if not scenario.faults:
         del metrics["tip_peak_after_fault"]
     if np.isnan(metrics["effort_rms"]):
@@ -130,8 +131,8 @@ def all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
     return metrics | saturation(scenario, setup.record.tally)
 
 
-def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
-    """Metrics over every control sample."""
+def base_metrics(tally: Any, tip_end: float, **others: float) -> dict[str, float]:
+    """Metrics over every control sample; ``others`` stand between those of the cable and of the thrust."""
     found, rms = tally.measures[0], partial(root_mean_square, tally)
     return {
         "tip_peak": found.tip.peak,
@@ -144,7 +145,7 @@ def _metrics(tally: Tally, tip_end: float) -> dict[str, float]:
         "quarter_rms": rms(found.quarter),
         "three_quarter_peak": found.three_quarter.peak,
         "three_quarter_rms": rms(found.three_quarter),
-        "slope_peak": float(tally.slopes.max()),
+        **others,
         "effort_rms": rms(found.command),
         "thrust_peak": found.thrust.peak,
         "motor_speed_peak": found.speed.peak,

@@ -8,16 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.control import cascade
-from umbilical.control.contract import Command, Measurement, to_measurement
+from umbilical.control.contract import Command, Measurement
 from umbilical.engine import loop
-from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged, so_far
-from umbilical.engine.saturation import saturation_notices
+from umbilical.engine.ending import Ending
+from umbilical.engine.model import make_model
 from umbilical.engine.schedule import end_of_stretch, stretch
-from umbilical.engine.setup import set_up
 from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.library import admit
-from umbilical.plant.exogenous import Inputs, Outside
 from umbilical.relations.instants import apart, is_multiple, nearest_count
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
@@ -28,9 +25,9 @@ class Block(NamedTuple):
 
     begin: int
     end: int
-    inputs: Inputs
+    inputs: Any
     first: np.ndarray
-    noise: np.ndarray
+    noise: Any
 
 
 class Mark(NamedTuple):
@@ -39,7 +36,7 @@ class Mark(NamedTuple):
     update: int
     driven: bool
     ending: Ending | None
-    block: tuple[int, np.ndarray]
+    block: tuple[int, Any]
     dice: tuple[Any, ...]
     arrays: list[np.ndarray]
     logged: list[tuple[int, Mapping[str, float]]]
@@ -76,8 +73,7 @@ class Episode:
         begun = perf_counter()
         self.scenario, self._notices = scenario, tuple(str(notice) for notice in admit(scenario))
         self._held = 1 if period is None else _periods(scenario, float(period), owner)
-        self._setup, self._outside = set_up(scenario, stored=stored, kernel="run_held"), Outside(scenario)
-        self._settings = cascade.with_known_factors(self._setup.settings)
+        self._model = make_model(scenario, stored=stored, held=True)
         self._update, self._driven, self._sampling = 0, False, 0.0
         self._ending: Ending | None = None
         self._run: Run | None = None
@@ -86,17 +82,17 @@ class Episode:
         self._prepared = self._begun - begun
         self._block = self._next_block(0)
         self._observe()
-        cascade.start(self._settings, self._setup.memory, self._setup.world.readings)
+        self._model.start()
 
     @property
     def time(self) -> float:
         """The present instant, s."""
-        return self._update * self._setup.clock.period
+        return self._update * self._model.clock.period
 
     @property
     def over(self) -> bool:
         """Whether the end of the run is reached, or the model has ended: no step can follow."""
-        return self._ending is not None or self._update == self._setup.clock.periods
+        return self._ending is not None or self._update == self._model.clock.periods
 
     @property
     def status(self) -> Status | None:
@@ -122,21 +118,21 @@ class Episode:
         if self.over:
             raise ControllerError(f"the episode is over at t = {self.time:g} s; restore a mark, or begin another one")
         self._take(command)
-        self._hold(min(self._update + self._held, self._setup.clock.periods), decided=True)
+        self._hold(min(self._update + self._held, self._model.clock.periods), decided=True)
         return self.measurement
 
     def stop(self, status: Status, reason: str) -> Ending:
         """End the run here, for a reason; what has ended stays as it ended."""
-        self._ending = self._ending or Ending(status, reason, *so_far(self._setup))
+        self._ending = self._ending or Ending(status, reason, *self._model.so_far())
         return self._ending
 
     def interrupt(self) -> Ending:
         """End the run here: its user gave up."""
-        return self.stop(Status.INTERRUPTED, f"interrupted at t = {so_far(self._setup)[1]:g} s")
+        return self.stop(Status.INTERRUPTED, f"interrupted at t = {self._model.so_far()[1]:g} s")
 
     def end(self, command: Command | None = None) -> Ending:
         """Take the update at the end of the run, if it is reached; how the run ended."""
-        periods = self._setup.clock.periods
+        periods = self._model.clock.periods
         if self._ending is None and self._update == periods:
             if command is not None:
                 self._take(command)
@@ -154,93 +150,77 @@ class Episode:
         """
         if self._run is None:
             ending = self.end(command)
-            record = self._setup.record
             simulated = perf_counter() - self._begun
             timing = {"prepare_s": self._prepared, "simulate_s": simulated, "outside_s": self._sampling}
-            notices = (*self._notices, *(str(n) for n in saturation_notices(self.scenario, record.tally)))
-            self._run = assemble_run(self.scenario, self._setup, ending, notices, timing, self._logged)
+            notices = (*self._notices, *self._model.notices())
+            self._run = self._model.assemble(ending, notices, timing, self._logged)
         return self._run
 
     def metrics(self) -> dict[str, float]:
         """Metrics so far, without those of the power balance."""
-        return {name: float(value) for name, value in all_metrics(self.scenario, self._setup).items()}
+        return self._model.metrics()
 
     def save(self) -> Mark:
         """Copy everything that changes, the sensors' noise included."""
         block = (self._block.begin, self._block.noise)
-        arrays = [array.copy() for array in self._changing(self._rows())]
+        arrays = [array.copy() for array in self._model.changing(self._rows())]
         return Mark(
-            self._update, self._driven, self._ending, block, self._setup.dice.save(), arrays, list(self._logged)
+            self._update, self._driven, self._ending, block, self._model.dice(), arrays, list(self._logged)
         )
 
     def restore(self, mark: Mark) -> None:
         """Go back (or forward) to a mark of this episode or of another one of the same scenario."""
         self._update, self._driven, self._ending, self._run = mark.update, mark.driven, mark.ending, None
         self._logged = list(mark.logged)
-        for array, saved in zip(self._changing(self._rows()), mark.arrays, strict=True):
+        for array, saved in zip(self._model.changing(self._rows()), mark.arrays, strict=True):
             array[...] = saved
         begin, noise = mark.block
         self._block = self._next_block(begin)._replace(noise=noise)
-        self._setup.dice.restore(mark.dice)
+        self._model.restore_dice(mark.dice)
         self._read()
-
-    def _changing(self, rows: int) -> Iterator[np.ndarray]:
-        """All arrays that change; of the log the rows so far."""
-        setup, world = self._setup, self._setup.world
-        state = (world.state, world.memory, world.readings, world.decision, setup.memory, setup.record.tally)
-        yield from (array for part in state for array in _arrays(part))
-        yield from (array[:rows] for array in _arrays(setup.record.log))
 
     def _rows(self) -> int:
         """Rows of the log in use: those of the updates before the present one, and the last of a run that is over."""
-        record = self._setup.record
-        last = self._ending is not None
-        return (self._update + record.every - 1) // record.every + last
+        every, last = self._model.every, self._ending is not None
+        return (self._update + every - 1) // every + last
 
     def _next_block(self, begin: int) -> Block:
         """Inputs and noise from an update on; the update at the end is a period without steps."""
-        before, clock, dice = perf_counter(), self._setup.clock, self._setup.dice
+        before, model, clock = perf_counter(), self._model, self._model.clock
         if begin == clock.periods:
-            return Block(begin, begin + 1, self._block.inputs, np.zeros(2, dtype=np.int64), dice.draw(1))
+            return Block(begin, begin + 1, self._block.inputs, np.zeros(2, dtype=np.int64), model.draw(1))
         end = end_of_stretch(clock, begin)
         part = stretch(clock, begin, end)
-        inputs = self._outside.sample(part.steps)
-        inputs.refresh[0] |= begin == 0
+        inputs = model.sample(part)
         self._sampling += perf_counter() - before
-        return Block(begin, end, inputs, part.first, dice.draw(end - begin))
+        return Block(begin, end, inputs, part.first, model.draw(end - begin))
 
     def _observe(self) -> None:
         """Measure at the present update."""
-        world, block = self._setup.world, self._block
-        loop.observe(world, block.inputs, block.first, block.noise, self._update - block.begin)
+        block = self._block
+        self._model.observe(block.inputs, block.first, block.noise, self._update - block.begin)
         self._read()
 
     def _read(self) -> None:
         """What the sensors read now."""
-        self.measurement = to_measurement(self._setup.world.readings, self.scenario.sensors.ideal_velocity)
+        self.measurement = self._model.measurement()
 
     def _take(self, command: Command) -> None:
         """Put a command where the kernels find it."""
-        world = self._setup.world
-        loop.check_command(command, world, self.time, can_drive=self._settings.motors.driven)
-        world.decision.outer["thrust_command"][0] = np.nan if command.thrust is None else command.thrust
-        if command.voltage is not None:
-            world.decision.motors["motor_voltage"] = command.voltage
-        self._driven = command.voltage is None and not world.plant.ideal
+        self._driven = self._model.take(command, self.time)
         if command.log:
             self._logged.append((self._update, {name: float(value) for name, value in command.log.items()}))
 
     def _hold(self, end: int, *, decided: bool) -> None:
         """Run until an update, and measure there."""
-        setup = self._setup
         while self._update < end:
             block, last = self._block, min(end, self._block.end)
-            stopped = loop.run_held(
-                setup.world, self._settings, setup.memory, setup.record, block.inputs, block.first, block.noise,
-                block.begin, (self._update - block.begin, last - block.begin), self._driven, decided,
-            )  # fmt: skip
+            span = self._update - block.begin, last - block.begin
+            stopped = self._model.hold(
+                block.inputs, block.first, block.noise, block.begin, span, self._driven, decided
+            )
             if stopped != loop.FINISHED:
-                self._ending = diverged(setup, stopped)
+                self._ending = self._model.diverged(stopped)
                 self._update = stopped
                 return
             self._update, decided = last, False
@@ -248,15 +228,6 @@ class Episode:
                 self._block = self._next_block(last)
                 self._observe()
         self._read()
-
-
-def _arrays(tree: Any) -> Iterator[np.ndarray]:
-    """The arrays of nested named tuples."""
-    if isinstance(tree, np.ndarray):
-        yield tree
-    elif isinstance(tree, tuple):
-        for part in tree:
-            yield from _arrays(part)
 
 
 def _periods(scenario: Scenario, period: float, owner: str) -> int:

@@ -156,7 +156,14 @@ def run_held(
     return FINISHED
 
 
-def check_command(command: object, world: World, t: float, *, can_drive: bool) -> None:
+def put_command(command: Command, decision: Decision) -> None:
+    """Put a command where the kernels find it."""
+    decision.outer["thrust_command"][0] = np.nan if command.thrust is None else command.thrust
+    if command.voltage is not None:
+        decision.motors["motor_voltage"] = command.voltage
+
+
+def check_command(command: object, ideal: bool, decision: Decision, t: float, *, can_drive: bool) -> None:
     """Refuse what is not a command, before it reaches the plant; ``can_drive``: there are motor loops for a thrust.
 
     Raises:
@@ -165,13 +172,13 @@ def check_command(command: object, world: World, t: float, *, can_drive: bool) -
     where = f"the controller's command at t = {t:g} s"
     if not isinstance(command, Command):
         raise ControllerError(f"{where} is a {type(command).__name__}; return (Command(thrust=...), state)")
-    if command.thrust is None and (command.voltage is None or world.plant.ideal):
-        need = "thrust (the thruster is ideal)" if world.plant.ideal else "thrust or voltage"
+    if command.thrust is None and (command.voltage is None or ideal):
+        need = "thrust (the thruster is ideal)" if ideal else "thrust or voltage"
         raise ControllerError(f"{where} gives no {need}")
-    if command.voltage is None and not world.plant.ideal and not can_drive:
+    if command.voltage is None and not ideal and not can_drive:
         raise ControllerError(f"{where} gives thrust only; add control.motor_loop, or set ideal_thruster = true")
-    if command.voltage is not None and np.shape(command.voltage) != (world.decision.motors.size,):
-        shape, motors = np.shape(command.voltage), world.decision.motors.size
+    if command.voltage is not None and np.shape(command.voltage) != (decision.motors.size,):
+        shape, motors = np.shape(command.voltage), decision.motors.size
         raise ControllerError(f"{where} gives voltages of shape {shape}; there are {motors} motors")
     for name, value in (command.log or {}).items():
         if not (isinstance(name, str) and name.isidentifier() and isinstance(value, (int, float, np.number))):

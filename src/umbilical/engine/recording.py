@@ -235,7 +235,7 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
     return watch_slopes(state, tally.slopes) and finite
 
 
-def root_mean_square(tally: Tally, measure: Measure) -> float:
+def root_mean_square(tally: Any, measure: Measure) -> float:
     """Root mean square of a measure over the control samples so far."""
     return float(np.sqrt(measure.squares / max(tally.measures[0].samples, 1)))
 

@@ -7,10 +7,11 @@ and the law's own estimates are about a loop in which the command is delivered.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
-from umbilical.engine.recording import Tally, root_mean_square
+from umbilical.engine.recording import root_mean_square
 from umbilical.plant.checks.steps import reachable_speed
 from umbilical.scenario.findings import Notice
 from umbilical.scenario.scenario import Scenario
@@ -27,7 +28,7 @@ A motor stuck for good leaves 1.7 in the presets; noise of 1 mm on the ROV's pos
 """
 
 
-def saturation(scenario: Scenario, tally: Tally) -> dict[str, float]:
+def saturation(scenario: Scenario, tally: Any) -> dict[str, float]:
     """The metrics ``saturated_share`` and ``thrust_gap``, each where there is something to measure.
 
     ``saturated_share`` counts the control samples of the motors with a voltage limit; ``thrust_gap``, N, is the root
@@ -44,7 +45,7 @@ def saturation(scenario: Scenario, tally: Tally) -> dict[str, float]:
     return found
 
 
-def saturation_notices(scenario: Scenario, tally: Tally) -> tuple[Notice, ...]:
+def saturation_notices(scenario: Scenario, tally: Any) -> tuple[Notice, ...]:
     """What a user should know of a run whose thrusters did not give what was commanded."""
     if scenario.ideal_thruster or not scenario.motors:
         return ()
@@ -64,7 +65,7 @@ def thrust_capability(scenario: Scenario) -> float:
     return sum(abs(motor.thrust_coefficient) * reachable_speed(motor) ** 2 for motor in scenario.motors)
 
 
-def _saturated(tally: Tally) -> Iterator[Notice]:
+def _saturated(tally: Any) -> Iterator[Notice]:
     for number, motor in enumerate(tally.motors, start=1):
         limit, share = motor.voltage_limit, motor.samples_at_limit / max(tally.measures[0].samples, 1)
         if share > SATURATED:
@@ -75,7 +76,7 @@ def _saturated(tally: Tally) -> Iterator[Notice]:
             )
 
 
-def _runaway(scenario: Scenario, tally: Tally) -> Iterator[Notice]:
+def _runaway(scenario: Scenario, tally: Any) -> Iterator[Notice]:
     capability, peak = thrust_capability(scenario), float(tally.measures[0].command.peak)
     found = tally.measures[0]
     gap, commanded, delivered = (root_mean_square(tally, m) for m in (found.gap, found.command, found.thrust))

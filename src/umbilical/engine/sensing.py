@@ -70,7 +70,7 @@ def make_sensor_state(sensors: Sensors, readings: Readings) -> SensorState:
 class Dice:
     """Draws of noise and drop-outs, in the order of the updates: they do not depend on how a run is cut up."""
 
-    def __init__(self, sensors: Sensors, seed: int) -> None:
+    def __init__(self, sensors: Sensors, seed: int | tuple[int, int]) -> None:
         self._sensors, self._drawn = sensors, 0
         streams = np.random.SeedSequence(seed).spawn(2)
         self._noise, self._lost = (np.random.Generator(np.random.Philox(stream)) for stream in streams)

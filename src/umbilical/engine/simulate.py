@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -11,14 +10,12 @@ import numpy as np
 
 from umbilical.control.contract import Controller
 from umbilical.engine import loop
-from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged, so_far
+from umbilical.engine.ending import Ending
 from umbilical.engine.episode import Episode
-from umbilical.engine.saturation import saturation_notices
+from umbilical.engine.model import Model, make_model
 from umbilical.engine.schedule import end_of_stretch, stretch
-from umbilical.engine.setup import Setup, set_up
 from umbilical.errors import ControllerError
 from umbilical.library import admit
-from umbilical.plant.exogenous import Outside
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
 
@@ -71,13 +68,12 @@ def simulate(
         return run
     begun = perf_counter()
     notices = tuple(str(notice) for notice in admit(scenario))
-    setup = set_up(scenario)
+    model = make_model(scenario)
     prepared = perf_counter()
-    ending, sampling = _run(scenario, setup, progress)
+    ending, sampling = _run(scenario, model, progress)
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
-    notices += tuple(str(notice) for notice in saturation_notices(scenario, setup.record.tally))
-    return assemble_run(scenario, setup, ending, notices, timing)
+    return model.assemble(ending, (*notices, *model.notices()), timing)
 
 
 def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome:
@@ -100,10 +96,9 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
         ending = episode.end()
         return Outcome(ending.status, ending.reason, ending.time, episode.metrics())
     admit(scenario)
-    setup = set_up(scenario, stored=False)
-    ending, _ = _run(scenario, setup, None)
-    metrics = {name: float(value) for name, value in all_metrics(scenario, setup).items()}
-    return Outcome(ending.status, ending.reason, ending.time, metrics)
+    model = make_model(scenario, stored=False)
+    ending, _ = _run(scenario, model, None)
+    return Outcome(ending.status, ending.reason, ending.time, model.metrics())
 
 
 def rehearse(scenario: Scenario, controller: Controller) -> None:
@@ -162,31 +157,26 @@ def _asked(controller: Controller, episode: Episode, method: Callable[..., Any],
         raise ControllerError(f"{at}: {type(error).__name__}: {error}") from error
 
 
-def _run(scenario: Scenario, setup: Setup, progress: Callable[[float], None] | None) -> tuple[Ending, float]:
+def _run(scenario: Scenario, model: Model, progress: Callable[[float], None] | None) -> tuple[Ending, float]:
     """The loop, stretch by stretch; also the seconds spent sampling the outside world."""
-    clock = setup.clock
-    decide = partial(loop.run_steps, setup.world, setup.settings, setup.memory, setup.record)
-    outside = Outside(scenario)
-    sampling = 0.0
-    begin = 0
+    clock, sampling, begin, inputs = model.clock, 0.0, 0, None
     try:
         while begin < clock.periods:
             end = end_of_stretch(clock, begin)
             before = perf_counter()
             part = stretch(clock, begin, end)
-            inputs = outside.sample(part.steps)
-            inputs.refresh[0] |= begin == 0
+            inputs = model.sample(part)
             sampling += perf_counter() - before
-            stopped = decide(inputs, part.first, setup.dice.draw(end - begin), begin)
+            stopped = model.run(inputs, part.first, model.draw(end - begin), begin)
             if stopped != loop.FINISHED:
-                return diverged(setup, stopped), sampling
+                return model.diverged(stopped), sampling
             begin = end
             if progress:
                 progress(end / clock.periods)
         # The update at the end: a period without steps.
-        if decide(inputs, np.zeros(2, dtype=np.int64), setup.dice.draw(1), clock.periods) != loop.FINISHED:
-            return diverged(setup, clock.periods), sampling
+        if model.run(inputs, np.zeros(2, dtype=np.int64), model.draw(1), clock.periods) != loop.FINISHED:
+            return model.diverged(clock.periods), sampling
     except KeyboardInterrupt:
-        updates, time = so_far(setup)
+        updates, time = model.so_far()
         return Ending(Status.INTERRUPTED, f"interrupted at t = {time:g} s", updates, time), sampling
     return Ending(Status.COMPLETED, "the end of the run was reached", clock.periods + 1, scenario.duration), sampling

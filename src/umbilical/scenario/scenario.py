@@ -12,6 +12,7 @@ from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape, Straight
 from umbilical.scenario.faults import Fault
 from umbilical.scenario.hardware import Cable, Motor, Payload
+from umbilical.scenario.rope import Rope
 from umbilical.scenario.sensors import Sensors
 from umbilical.scenario.winch import Winch
 
@@ -49,12 +50,16 @@ class Scenario(Record):
     description: str = Field(default="", description="what it shows, in a sentence")
     duration: float = quantity("duration", gt=0.0, le=1e6, reason="simulated time")
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the sensors' noise and drop-outs")
+    model: Literal["string", "rope"] = Field(
+        default="string", description="the cable: a string in one plane, or a rope in space (docs/rope.md)"
+    )
     ideal_thruster: bool = Field(default=False, description="deliver the commanded thrust as it is, without motors")
     cable: Cable
     payload: Payload
     environment: Environment
     winch: Winch
     initial: InitialShape = Straight(shape="straight")
+    rope: Rope | None = None
     motors: tuple[Motor, ...] = Field(default=(), max_length=1000)
     faults: tuple[Fault, ...] = ()
     sensors: Sensors = Sensors()

@@ -12,6 +12,7 @@ from umbilical.plant.checks.motion import sampled_winch
 from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
+from umbilical.plant.rope.assemble import rope_step
 from umbilical.plant.top import top_at
 from umbilical.relations.instants import count_up
 from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension
@@ -38,10 +39,14 @@ def plant_step(control: Control, grid: Grid) -> float:
 def chosen_step(scenario: Scenario) -> float:
     """The step taken, s: as :func:`plant_step`, and short enough for the waves on the cable all through the run.
 
+    On a rope those are the waves along the cable.
+
     >>> import umbilical
     >>> chosen_step(umbilical.load("paper")), chosen_step(umbilical.load("paper", {"grid.elements": 400}))
     (0.001, 0.0003333333333333333)
     """
+    if scenario.model == "rope":
+        return _whole_part(scenario.control.period, min(scenario.grid.step, rope_step(scenario)))
     waves = wave_step(
         scenario.cable, scenario.payload, scenario.environment, scenario.winch, scenario.duration, scenario.grid
     )

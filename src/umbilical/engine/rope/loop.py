@@ -1,0 +1,163 @@
+"""The two loops of the rope, as those of the string in ``engine/loop.py``: decided inside, or held from outside."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import entry_kernel, glue, kernel
+from umbilical.control.allocation.adaptive import adapt
+from umbilical.control.cascade import NONE, CascadeSettings, CascadeState, start, update_motors, update_outer
+from umbilical.engine.loop import FINISHED
+from umbilical.engine.rope.recording import RopeLog, RopeTally, measure_rope, store_rope
+from umbilical.engine.rope.world import RopeWorld, advance, enter_step, sense
+from umbilical.plant.rope.outside import RopeInputs
+
+
+class RopeRecord(NamedTuple):
+    """What is kept of a run; as ``engine.loop.Record``, with the control period, s."""
+
+    log: RopeLog
+    tally: RopeTally
+    every: int
+    fault_update: int
+    last_update: int
+    period: float
+
+
+class RopeControl(NamedTuple):
+    """Settings of the built-in controller, its memory for both directions, and the allocation to directed motors.
+
+    Attributes:
+        settings: of either direction.
+        along, across: memory.
+        shares: demand of each motor per newton of thrust in x and y, shape (motors, 2).
+        directions: unit vectors of the motors' thrusts, shape (motors, 2).
+    """
+
+    settings: CascadeSettings
+    along: CascadeState
+    across: CascadeState
+    shares: np.ndarray
+    directions: np.ndarray
+
+
+@kernel
+def allocate(control: RopeControl, world: RopeWorld) -> None:
+    """Demands on the motors from the commanded thrusts of both directions; the adaptive law per direction."""
+    motors, out = control.settings.motors, world.along.decision.motors
+    x, y = world.along.decision.outer[0], world.across.decision.outer[0]
+    if not motors.adaptation.enabled:
+        for i in range(out.size):
+            sign = np.sign(motors.nominal[i].thrust_coefficient)
+            out[i].demand = sign * (control.shares[i, 0] * x.thrust_command + control.shares[i, 1] * y.thrust_command)
+        return
+    kappa, other = control.along.kappa, control.across.kappa
+    if control.along.outer[0].updates > 0:
+        adapt(motors.adaptation, kappa, x.thrust_command, x.boundary_error)
+        adapt(motors.adaptation, other, y.thrust_command, y.boundary_error)
+    along, across = kappa[0] * x.thrust_command, other[0] * y.thrust_command
+    for j in range(1, kappa.size):
+        along += kappa[j]
+        across += other[j]
+    for i in range(out.size):
+        sign = np.sign(motors.nominal[i].thrust_coefficient)
+        out[i].demand = sign * (control.directions[i, 0] * along + control.directions[i, 1] * across)
+
+
+@glue
+def decide(control: RopeControl, world: RopeWorld) -> None:
+    """One update of the built-in controller: the outer law per direction, then the motors."""
+    settings, along, across = control.settings, world.along, world.across
+    if settings.outer.law != NONE:
+        if control.along.outer[0].updates % settings.outer_every == 0:
+            update_outer(settings.outer, control.along, along.readings, along.decision)
+            update_outer(settings.outer, control.across, across.readings, across.decision)
+            if settings.motors.driven:
+                allocate(control, world)
+        if settings.motors.driven:
+            update_motors(settings.motors, control.along, along.readings, along.decision)
+    control.along.outer[0].updates += 1
+    control.across.outer[0].updates += 1
+
+
+@glue
+def actuate(world: RopeWorld) -> None:
+    """An ideal thruster delivers the new command at once; motors take their time."""
+    if world.plant.ideal:
+        now = world.state.now[0]
+        now.body_thrust[0] = world.along.decision.outer[0].thrust_command
+        now.body_thrust[1] = world.across.decision.outer[0].thrust_command
+        now.thrust = now.body_thrust[0]
+
+
+@glue
+def keep(world: RopeWorld, record: RopeRecord, update: int, kappa: np.ndarray) -> bool:
+    """Take one control sample into the record; False if the model has ended."""
+    good = measure_rope(record.tally, world, update >= record.fault_update, update * record.period)
+    if good and (update % record.every == 0 or update == record.last_update):
+        store_rope(record.log, (update + record.every - 1) // record.every, record.tally, world, kappa)
+    return good
+
+
+@glue
+def observe_rope(
+    world: RopeWorld, inputs: RopeInputs, first: np.ndarray, noise: np.ndarray, across: np.ndarray, j: int
+) -> None:
+    """The outside world after a jump, then the sensors."""
+    if first[j] < first[j + 1] and inputs.plane.refresh[first[j]]:
+        enter_step(world.plant, world.state, inputs, first[j])
+    sense(world, noise, across, j)
+
+
+@glue
+def advance_period(world: RopeWorld, inputs: RopeInputs, begin: int, end: int) -> None:
+    """All plant steps of one control period."""
+    for i in range(begin, end):
+        if i > begin and inputs.plane.refresh[i]:
+            enter_step(world.plant, world.state, inputs, i)
+        advance(world.plant, world.state, inputs, i, world.along.decision.motors)
+
+
+@entry_kernel
+def run_rope_steps(
+    world: RopeWorld, control: RopeControl, record: RopeRecord, inputs: RopeInputs, first: np.ndarray,
+    noise: np.ndarray, across: np.ndarray, begin: int, periods: tuple[int, int], inside: bool, driven: bool,
+    decided: bool,
+) -> int:  # fmt: skip
+    """Control periods ``periods`` of the stretch that begins at ``begin``.
+
+    ``inside``: the built-in controller decides, and each period is observed first. Else a command from outside is
+    held: the first period is observed already, ``driven`` and ``decided`` as in ``engine.loop.run_held``, and in the
+    end what follows the last period is observed, if it is in the stretch. Returns as ``engine.loop.run_steps``.
+    """
+    for j in range(periods[0], periods[1]):
+        if inside or j > periods[0]:
+            observe_rope(world, inputs, first, noise, across, j)
+        if inside and begin + j == 0:
+            start(control.settings, control.along, world.along.readings)
+            start(control.settings, control.across, world.across.readings)
+        if inside:
+            decide(control, world)
+        else:
+            if driven:
+                if decided and j == periods[0]:
+                    allocate(control, world)
+                update_motors(control.settings.motors, control.along, world.along.readings, world.along.decision)
+            control.along.outer[0].updates += 1
+        actuate(world)
+        if not keep(world, record, begin + j, control.along.kappa):
+            return begin + j
+        advance_period(world, inputs, first[j], first[j + 1])
+    if not inside and periods[1] < first.size - 1:
+        observe_rope(world, inputs, first, noise, across, periods[1])
+    return FINISHED
+
+
+@entry_kernel
+def observe_once(
+    world: RopeWorld, inputs: RopeInputs, first: np.ndarray, noise: np.ndarray, across: np.ndarray, j: int
+) -> None:
+    """:func:`observe_rope` from Python."""
+    observe_rope(world, inputs, first, noise, across, j)

@@ -1,0 +1,135 @@
+"""The rope of a scenario: its constants, and its state at the start."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+
+from umbilical.plant.exogenous import profile
+from umbilical.plant.initial import slope_of_shape
+from umbilical.plant.rope.model import BodyData, CableData, make_rope
+from umbilical.plant.rope.outside import still_water, vessel_in_space
+from umbilical.plant.rope.records import Rope, RopeState, Water, make_state
+from umbilical.plant.rope.statics import hanging_shape, node_positions, put_shape, settle
+from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, refresh_rope
+from umbilical.plant.top import top_at
+from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension, tension_gain
+from umbilical.scenario.environment import Straight
+from umbilical.scenario.rope import Rope as RopeSection
+from umbilical.scenario.scenario import Scenario
+
+ASSUMED_STIFFNESS = 1e4
+"""EA over the static tension at the vessel, where a scenario gives none: a stretch of 1e-4, near the string."""
+_INSTANTS = 2001
+
+
+def section(scenario: Scenario) -> RopeSection:
+    """What the scenario says of the rope, defaults where it says nothing."""
+    return scenario.rope or RopeSection()
+
+
+def stiffness(scenario: Scenario) -> float:
+    """EA, N: given, or assumed from the static tension at the vessel on the longest length of the run."""
+    if (given := section(scenario).axial_stiffness) is not None:
+        return given
+    lengths = top_at(scenario.winch, np.linspace(0.0, scenario.duration, _INSTANTS)).length
+    hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
+    return ASSUMED_STIFFNESS * float(
+        np.max(largest_tension(lengths, net_gravity(scenario.environment.gravity), hung))
+    )
+
+
+def cable_data(scenario: Scenario) -> CableData:
+    """The cable."""
+    cable, rope = scenario.cable, section(scenario)
+    hung, still = hanging_of(cable, scenario.payload, scenario.environment), net_gravity(scenario.environment.gravity)
+    weight = float(tension_gain(1.0, still, hung)) if rope.line_weight is None else rope.line_weight
+    return CableData(
+        stiffness(scenario), cable.line_density, weight, rope.diameter, rope.normal_drag, rope.tangential_drag,
+        rope.added_mass, cable.damping,
+    )  # fmt: skip
+
+
+def body_data(scenario: Scenario) -> BodyData:
+    """The body; its linear damping is horizontal, as on the string."""
+    payload, rope = scenario.payload, section(scenario)
+    hung, still = hanging_of(scenario.cable, payload, scenario.environment), net_gravity(scenario.environment.gravity)
+    weight = float(tension(0.0, still, hung))
+    damping = (payload.damping, payload.damping, 0.0)
+    return BodyData(payload.mass, weight, rope.body_added_mass, damping, rope.body_drag, rope.body_displaced)
+
+
+def rope_of(scenario: Scenario) -> Rope:
+    """Constants for the kernels."""
+    rope = section(scenario)
+    sigma = node_positions(rope.elements)
+    rows = [profile(load.profile, sigma) for load in scenario.environment.cable_load]
+    loads = np.array(rows) if rows else np.zeros((0, *sigma.shape))
+    body = body_data(scenario)
+    moving = bool(rope.current) or bool(np.any(body.drag)) or bool(np.any(body.damping))
+    return make_rope(cable_data(scenario), body, rope.elements, profiles=loads, moving=moving)
+
+
+def rope_step(scenario: Scenario) -> float:
+    """Longest step that is stable all through the run, s."""
+    rope, motion = rope_of(scenario), top_at(scenario.winch, np.linspace(0.0, scenario.duration, _INSTANTS))
+    elements = section(scenario).elements
+    crossing = min(
+        largest_step(rope, float(length), float(speed), elements)
+        for length, speed in zip(motion.length, motion.speed, strict=True)
+    )
+    return min(crossing, _body_step(rope))
+
+
+def _body_step(rope: Rope) -> float:
+    """The body loses its speed to the waves it sends up the cable at the rate Z/(m + A)."""
+    return SAFE * float(rope.inertia.min()) / (rope.density * axial_speed(rope))
+
+
+def substeps(scenario: Scenario) -> int:
+    """Steps of the rope in a control period."""
+    return max(1, ceil(scenario.control.period / rope_step(scenario) - 1e-9))
+
+
+def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
+    """The rope at the start: as it hangs in the current; another initial shape is laid over that, at rest."""
+    state = make_state(section(scenario).elements)
+    start = top_at(scenario.winch, 0.0)
+    outside = state.outside[0]
+    outside.length, outside.payout_speed = float(start.length), float(start.speed)
+    place, speed = (part[0] for part in vessel_in_space(scenario, np.zeros(1)))
+    outside.vessel_position[:], outside.vessel_speed[:] = place, speed
+    sigma = node_positions(state.stretch.shape[1])
+    found = hanging_shape(rope, water, outside.length, place, np.zeros(3), sigma)
+    put_shape(state, found.slopes, outside.length)
+    if isinstance(scenario.initial, Straight) and not outside.payout_speed and not speed.any():
+        settle(rope, state, np.zeros(0), water._replace(flow=water.flow[:1].repeat(3, axis=0)))
+    elif not isinstance(scenario.initial, Straight):
+        lean(state, slope_of_shape(scenario, sigma) / outside.length)
+    move_with_the_winch(state)
+    refresh_rope(rope, state)
+    return state
+
+
+def lean(state: RopeState, slopes: np.ndarray) -> None:
+    """Add slopes y_x in the direction x, shape (5, n), and keep the stretch."""
+    n, length = state.stretch.shape[1], float(state.outside[0].length)
+    parts = [state.now[:, i * n : (i + 1) * n] / length for i in range(3)]
+    size = np.sqrt(sum(part**2 for part in parts))
+    parts[0] = parts[0] + slopes * size / np.sqrt(1.0 + slopes**2)
+    rest = np.maximum(size**2 - parts[0] ** 2 - parts[1] ** 2, 0.0)
+    parts[2] = -np.sqrt(rest)
+    state.now[:, : 3 * n] = length * np.concatenate(parts, axis=1)
+
+
+def move_with_the_winch(state: RopeState) -> None:
+    """At the start cable and body move as the winch pays out along the shape, and with the vessel."""
+    n, outside = state.stretch.shape[1], state.outside[0]
+    for i in range(3):
+        along = outside.payout_speed / outside.length * state.now[:, i * n : (i + 1) * n]
+        state.now[:, (3 + i) * n : (4 + i) * n] = outside.vessel_speed[i] + along
+        state.body[0, i] = state.now[4, (4 + i) * n - 1]
+
+
+__all__ = ["initial_rope", "rope_of", "rope_step", "section", "still_water", "stiffness", "substeps"]

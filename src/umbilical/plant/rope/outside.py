@@ -1,0 +1,115 @@
+"""What acts on the rope from outside, sampled at the three stages of every step of a stretch."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from umbilical.plant import signals
+from umbilical.plant.exogenous import Inputs, Outside, Steps
+from umbilical.plant.rope.records import STAGES, RopeOutside, Water
+from umbilical.plant.signals import Array, Side
+from umbilical.plant.top import top_at, vessel_at
+from umbilical.scenario.rope import Rope, Sea
+from umbilical.scenario.scenario import Scenario
+from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point
+
+
+class RopeInputs(NamedTuple):
+    """What acts from outside, step by step.
+
+    Attributes:
+        plane: as the string gets it: motors, winch and loads in the direction x.
+        world: records at start, end and middle of each step, shape (steps, 3).
+        loads: of the loads along the cable, N/m, shape (steps, 3, loads).
+        water: the same at all steps.
+    """
+
+    plane: Inputs
+    world: RopeOutside
+    loads: Array
+    water: Water
+
+
+class Heave(NamedTuple):
+    """Heave of the sheave as a sum of waves: complex amplitudes, m, shape (waves,), at angular frequencies, rad/s."""
+
+    omega: Array
+    amplitude: Array
+
+
+@lru_cache(maxsize=8)
+def heave_of(sea: Sea, seed: int, gravity: float) -> Heave:
+    """The sea's heave; the seed of a scenario sets the phases."""
+    waves = discretise(Spectrum(sea.significant_height, sea.peak_period, sea.peakedness), sea.components, seed=seed)
+    ship = BoxVessel(sea.ship_length, sea.breadth, sea.draught, sea.block_coefficient, gravity)
+    answer = heave_of_point(ship, waves.omega, sea.heading, sea.sheave_forward, 0.0)
+    return Heave(waves.omega, waves.amplitude * answer * np.exp(1j * waves.phase))
+
+
+def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Array, Array]:
+    """Place, m, and velocity, m/s, of the sheave at instants of any shape: shape (..., 3)."""
+    instants, rope, environment = np.asarray(t, dtype=float), scenario.rope or Rope(), scenario.environment
+    along = vessel_at(environment, instants, side)
+    others = [
+        vessel_at(environment.model_copy(update={"vessel_motion": signal}), instants, side)
+        for signal in (rope.vessel_across, rope.vessel_heave)
+    ]
+    place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
+    if rope.sea is not None:
+        heave, rate = _faded(heave_of(rope.sea, scenario.seed, environment.gravity), instants, environment.vessel_ramp)
+        place[..., 2] += heave
+        speed[..., 2] += rate
+    return place, speed
+
+
+def _faded(heave: Heave, t: Array, ramp: float) -> tuple[Array, Array]:
+    """Heave and its rate, faded in as the rest of the vessel's motion is."""
+    turning = np.exp(1j * np.multiply.outer(t, heave.omega))
+    value = (turning @ heave.amplitude).real
+    rate = (turning @ (1j * heave.omega * heave.amplitude)).real
+    if ramp == 0.0:
+        return value, rate
+    q = np.clip(t / ramp, 0.0, 1.0)
+    fade, fade_rate = q**3 * (10.0 - 15.0 * q + 6.0 * q * q), 30.0 * q * q * (1.0 - q) ** 2 / ramp
+    return fade * value, fade * rate + fade_rate * value
+
+
+def still_water(rope: Rope) -> Water:
+    """The water for the kernels: the current, which does not change in time."""
+    levels = sorted(rope.current, key=lambda level: -level.height)
+    flow = np.zeros((STAGES, max(len(levels), 1), 6))
+    for k, level in enumerate(levels):
+        flow[:, k, :2] = level.x, level.y
+    return Water(np.array([level.height for level in levels] or [0.0]), flow)
+
+
+class RopeSampler:
+    """Samples the outside world of a scenario, stretch by stretch."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._scenario, self._rope = scenario, scenario.rope or Rope()
+        self._plane = Outside(scenario)
+        self._water = still_water(self._rope)
+
+    def sample(self, steps: Steps) -> RopeInputs:
+        """All inputs at the given steps."""
+        plane = self._plane.sample(steps)
+        world = RopeOutside.many(steps.start.size, STAGES)
+        middle = 0.5 * (steps.start + steps.end)
+        for stage, (t, side) in enumerate(((steps.start, "right"), (steps.end, "left"), (middle, "right"))):
+            self._fill(world[:, stage], t, side)
+        ends = plane.loads
+        loads = np.stack([ends[:, :, 0], ends[:, :, 1], 0.5 * (ends[:, :, 0] + ends[:, :, 1])], axis=1)
+        return RopeInputs(plane, world, np.ascontiguousarray(loads), self._water)
+
+    def _fill(self, out: RopeOutside, t: Array, side: Side) -> None:
+        top = top_at(self._scenario.winch, t, side)
+        out["length"], out["payout_speed"] = top.length, top.speed
+        out["vessel_position"], out["vessel_speed"] = vessel_in_space(self._scenario, t, side)
+        forces = (self._scenario.environment.payload_force, self._rope.force_across, self._rope.force_up)
+        for i, signal in enumerate(forces):
+            out["body_force"][:, i] = signals.evaluate(signal, t, side)
