@@ -12,7 +12,7 @@ from umbilical.plant.rope.model import BodyData, CableData, make_rope
 from umbilical.plant.rope.outside import still_water, vessel_in_space
 from umbilical.plant.rope.records import Rope, RopeState, Water, make_state
 from umbilical.plant.rope.statics import hanging_shape, node_positions, put_shape, settle
-from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, refresh_rope
+from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, look_at_rope
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension, tension_gain
 from umbilical.scenario.environment import Straight
@@ -108,7 +108,7 @@ def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
     elif not isinstance(scenario.initial, Straight):
         lean(state, slope_of_shape(scenario, sigma) / outside.length)
     move_with_the_winch(state)
-    refresh_rope(rope, state)
+    look_at_rope(rope, state)
     return state
 
 

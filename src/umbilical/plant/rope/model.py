@@ -23,7 +23,7 @@ from umbilical.plant.rope.records import (
     vector_of,
 )
 from umbilical.plant.rope.statics import hanging_shape, jacobian, node_positions, put_shape, settle
-from umbilical.plant.rope.step import largest_step, refresh_rope, run_rope
+from umbilical.plant.rope.step import largest_step, look_at_rope, run_rope
 
 Vector = float | tuple[float, float, float]
 WATER_DENSITY = 1025.0
@@ -168,7 +168,7 @@ class RopeModel:
         put_shape(self.state, found.slopes, outside.length)
         if settled and outside.payout_speed == 0.0 and not outside.vessel_speed.any():
             settle(self.rope, self.state, np.zeros(0), self.water)
-        refresh_rope(self.rope, self.state)
+        look_at_rope(self.rope, self.state)
 
     def _outside(self, start: np.ndarray, dt: float) -> RopeOutside:
         """Winch and vessel at the start, end and middle of steps, shape (steps, 3)."""

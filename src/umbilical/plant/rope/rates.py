@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.compile import glue, kernel
+from umbilical.compile import entry_kernel, glue, kernel
 from umbilical.plant.rope.body import accelerate_body
 from umbilical.plant.rope.ends import meet_body, meet_vessel
 from umbilical.plant.rope.fluxes import meet
@@ -101,7 +101,7 @@ def find_gradients(state: RopeState) -> None:
         lift(state.pull[:, i * n : (i + 1) * n], state.star, 3 + i, state.gradient, (6 + i) * n, n)
 
 
-@glue
+@entry_kernel
 def evaluate(
     rope: Rope, state: RopeState, outside: RopeOutside, loads: np.ndarray, water: Water, stage: int, booked: bool
 ) -> None:

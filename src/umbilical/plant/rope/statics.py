@@ -20,7 +20,8 @@ from scipy.optimize import brentq
 
 from umbilical.plant.elements import NODES
 from umbilical.plant.rope.records import Rope, RopeState, Water
-from umbilical.plant.rope.step import derive_rope, refresh_rope
+from umbilical.plant.rope.rates import evaluate
+from umbilical.plant.rope.step import look_at_rope
 
 _WIDEST = 1.5
 """The body is looked for between the sheave's height plus and minus this times the length."""
@@ -106,7 +107,7 @@ def rates_at(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, valu
     size = state.now.size
     state.now[:] = values[:size].reshape(state.now.shape)
     state.body[0] = values[size:]
-    derive_rope(rope, state, loads, water)
+    evaluate(rope, state, state.outside[0], loads, water, 0, True)
     return np.concatenate([state.rate.ravel(), state.body[2]])
 
 
@@ -141,5 +142,5 @@ def settle(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, *, rou
         rest = size
         change = np.linalg.lstsq(jacobian(rope, state, loads, water), -rates, rcond=1e-13)[0]
         rates_at(rope, state, loads, water, at + change)
-    refresh_rope(rope, state)
+    look_at_rope(rope, state)
     return rest

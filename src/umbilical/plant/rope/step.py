@@ -82,7 +82,7 @@ def advance_rope(
     look_at_rope(rope, state)
 
 
-@glue
+@entry_kernel
 def look_at_rope(rope: Rope, state: RopeState) -> None:
     """What follows from the present state: tension along the cable and at its ends, places where elements meet."""
     n, outside = state.stretch.shape[1], state.outside[0]
@@ -103,15 +103,3 @@ def run_rope(
     """Steps one after the other: ``outside`` of shape (steps, 3), ``loads`` (steps, 3, loads), ``dt`` (steps,)."""
     for i in range(dt.size):
         advance_rope(rope, state, outside[i], loads[i], water, dt[i], booked)
-
-
-@entry_kernel
-def derive_rope(rope: Rope, state: RopeState, loads: np.ndarray, water: Water) -> None:
-    """All rates of the present state, with the powers: for statics and linearisation."""
-    evaluate(rope, state, state.outside[0], loads, water, 0, True)
-
-
-@entry_kernel
-def refresh_rope(rope: Rope, state: RopeState) -> None:
-    """:func:`look_at_rope` from Python."""
-    look_at_rope(rope, state)
