@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from time import perf_counter
 from typing import Any, NamedTuple
 
@@ -164,9 +164,7 @@ class Episode:
         """Copy everything that changes, the sensors' noise included."""
         block = (self._block.begin, self._block.noise)
         arrays = [array.copy() for array in self._model.changing(self._rows())]
-        return Mark(
-            self._update, self._driven, self._ending, block, self._model.dice(), arrays, list(self._logged)
-        )
+        return Mark(self._update, self._driven, self._ending, block, self._model.dice(), arrays, list(self._logged))
 
     def restore(self, mark: Mark) -> None:
         """Go back (or forward) to a mark of this episode or of another one of the same scenario."""
@@ -216,15 +214,13 @@ class Episode:
         while self._update < end:
             block, last = self._block, min(end, self._block.end)
             span = self._update - block.begin, last - block.begin
-            stopped = self._model.hold(
-                block.inputs, block.first, block.noise, block.begin, span, self._driven, decided
-            )
+            stopped = self._model.hold(block.inputs, block.first, block.noise, block.begin, span, self._driven, decided)
             if stopped != loop.FINISHED:
                 self._ending = self._model.diverged(stopped)
                 self._update = stopped
                 return
             self._update, decided = last, False
-            if last == block.end and last <= setup.clock.periods:
+            if last == block.end and last <= self._model.clock.periods:
                 self._block = self._next_block(last)
                 self._observe()
         self._read()

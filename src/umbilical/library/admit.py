@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import TypeAdapter
 
 from umbilical.errors import Problem, ScenarioError
-from umbilical.library.checks import CHECKS
+from umbilical.library.checks import checks_for
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import freeze, validate
 from umbilical.scenario.findings import Finding, Notice
@@ -59,7 +59,11 @@ def admit_data(data: Mapping[str, Any], origin: str, problems: Iterable[Problem]
 
 def _findings(sections: Mapping[str, Any]) -> list[Finding]:
     """What the checks find whose sections are all there."""
-    able = [(check, needs) for check in CHECKS if sections.keys() >= (needs := signature(check).parameters.keys())]
+    able = [
+        (check, needs)
+        for check in checks_for(sections.get("model", "string"))
+        if sections.keys() >= (needs := signature(check).parameters.keys())
+    ]
     # Overflow in a check is an answer (an infinite wave speed breaks its bound), not a fault of the check.
     with np.errstate(all="ignore"):
         return [finding for check, needs in able for finding in check(**{name: sections[name] for name in needs})]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from umbilical.control import nominal
 from umbilical.control.allocation import adaptive
 from umbilical.control.motor import backstepping
@@ -9,10 +12,12 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, sizes, statics, steps, timeline, weights
+from umbilical.plant.checks import equipment, motion, rope, sizes, statics, steps, timeline, weights
 from umbilical.plant.forces.table import FORCES
 
-CHECKS = (
+Check = Callable[..., Any]
+
+CHECKS: tuple[Check, ...] = (
     timeline.grid_of_time,
     timeline.size_of_the_run,
     sizes.large_result,
@@ -62,5 +67,33 @@ CHECKS = (
     steps.waves_that_leave,
     steps.motors,
     timeline.marks,
+    rope.read_at_all,
     *(check for force in FORCES for check in force.checks),
 )
+
+OF_THE_STRING = (
+    motion.tension,
+    motion.wave_speed,
+    statics.static_slope,
+    steps.grid_near_the_payload,
+    steps.waves,
+    steps.waves_that_leave,
+)
+"""Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep."""
+OF_THE_ROPE = (
+    rope.signals,
+    rope.stretch,
+    rope.weights,
+    rope.water,
+    rope.thrusters,
+    rope.start,
+    rope.steps,
+)
+"""What only a scenario with ``model = "rope"`` is asked."""
+
+
+def checks_for(model: str) -> tuple[Check, ...]:
+    """The checks of a scenario with this model of the cable."""
+    if model == "rope":
+        return (*(check for check in CHECKS if check not in OF_THE_STRING), *OF_THE_ROPE)
+    return CHECKS

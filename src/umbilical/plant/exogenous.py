@@ -98,6 +98,8 @@ def published_jumps(scenario: Scenario) -> tuple[float, ...]:
         *(m.torque_disturbance for m in scenario.motors),
         *(m.voltage_disturbance for m in scenario.motors),
     ]
+    if (rope := scenario.rope) is not None:
+        named += [rope.vessel_across, rope.vessel_heave, rope.force_across, rope.force_up]
     instants = {t for signal in named for t in signals.jumps(signal)}
     instants |= {environment.vessel_ramp} | set(winch.jumps(scenario.winch))
     instants |= set(faults.jumps(scenario.faults, scenario.duration))

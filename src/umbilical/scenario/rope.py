@@ -49,7 +49,9 @@ class Rope(Record):
     x is the direction of the string's displacement y, y is across it, z is up.
     """
 
-    elements: int = Field(default=10, ge=2, le=400, description="elements along the cable, four intervals of nodes each")
+    elements: int = Field(
+        default=10, ge=2, le=400, description="elements along the cable, four intervals of nodes each"
+    )
     axial_stiffness: float | None = quantity(
         "axial_stiffness", None, gt=0.0, reason="the cable is elastic",
         cure="newton, from the maker; left out: ten thousand times the static tension at the vessel, assumed",

@@ -32,6 +32,7 @@ from umbilical.engine.rope.world import RopeNow, RopePlant, RopePlantState, Rope
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Stretch, make_clock
 from umbilical.engine.sensing import Dice, Sensors, make_sensor_state, make_sensors
+from umbilical.frames import numbers
 from umbilical.plant import faults
 from umbilical.plant.exogenous import published_jumps
 from umbilical.plant.layout import positions
@@ -70,7 +71,8 @@ class RopeModel:
     def _make_world(self) -> RopeWorld:
         scenario, count = self._scenario, len(self._scenario.motors)
         sensors, readings, other = make_sensors(scenario), make_readings(count), make_readings(count)
-        across = Sensors(not sensors.errors[:4].view(np.uint8).any(), sensors.errors[:4].copy())
+        of_tip = sensors.errors[: len(TipReadings.fields)]
+        across = Sensors(not any(any(numbers(error)) for error in of_tip), of_tip)
         tip_only = Readings(other.tip, other.winch, MotorReadings.many(0))
         state = RopePlantState(
             RopeNow.many(1),

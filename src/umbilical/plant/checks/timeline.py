@@ -76,13 +76,13 @@ def size_of_the_run(duration: float, control: Control, grid: Grid, output: Outpu
 def signals_of_the_environment(environment: Environment, duration: float) -> Iterator[Finding]:
     """Terms of the loads and of the vessel's motion make sense and cover the run."""
     for key, signal in of_environment(environment):
-        yield from _signal(key, signal, duration)
+        yield from check_signal(key, signal, duration)
 
 
 def signals_of_the_motors(motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
     """Terms of the motors' disturbances make sense and cover the run."""
     for key, signal in of_motors(motors):
-        yield from _signal(key, signal, duration)
+        yield from check_signal(key, signal, duration)
 
 
 def tables_of_the_winch(winch: Winch, duration: float) -> Iterator[Finding]:
@@ -176,7 +176,8 @@ def of_motors(motors: Sequence[Motor]) -> Iterator[tuple[str, Signal]]:
         yield f"motors.{number}.voltage_disturbance", motor.voltage_disturbance
 
 
-def _signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
+def check_signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
+    """Terms of one signal make sense and cover the run."""
     for number, term in enumerate(signal, start=1):
         place = f"{key}.{number}"
         if isinstance(term, Table):

@@ -9,9 +9,9 @@ import numpy as np
 from umbilical.plant.exogenous import profile
 from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.rope.model import BodyData, CableData, make_rope
-from umbilical.plant.rope.outside import still_water, vessel_in_space
+from umbilical.plant.rope.outside import vessel_in_space
 from umbilical.plant.rope.records import Rope, RopeState, Water, make_state
-from umbilical.plant.rope.statics import hanging_shape, node_positions, put_shape, settle
+from umbilical.plant.rope.statics import Shape, hanging_shape, node_positions, put_shape, settle
 from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, look_at_rope
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension, tension_gain
@@ -33,11 +33,13 @@ def stiffness(scenario: Scenario) -> float:
     """EA, N: given, or assumed from the static tension at the vessel on the longest length of the run."""
     if (given := section(scenario).axial_stiffness) is not None:
         return given
-    lengths = top_at(scenario.winch, np.linspace(0.0, scenario.duration, _INSTANTS)).length
+    lengths = _lengths(scenario)
     hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
-    return ASSUMED_STIFFNESS * float(
-        np.max(largest_tension(lengths, net_gravity(scenario.environment.gravity), hung))
-    )
+    return ASSUMED_STIFFNESS * float(np.max(largest_tension(lengths, net_gravity(scenario.environment.gravity), hung)))
+
+
+def _lengths(scenario: Scenario) -> np.ndarray:
+    return top_at(scenario.winch, np.linspace(0.0, scenario.duration, _INSTANTS)).length
 
 
 def cable_data(scenario: Scenario) -> CableData:
@@ -92,21 +94,37 @@ def substeps(scenario: Scenario) -> int:
     return max(1, ceil(scenario.control.period / rope_step(scenario) - 1e-9))
 
 
-def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
-    """The rope at the start: as it hangs in the current; another initial shape is laid over that, at rest."""
+def weights_of(scenario: Scenario) -> tuple[float, float]:
+    """Static tension at the body and at the vessel on the longest cable of the run, N."""
+    weight = body_data(scenario).weight
+    return weight, weight + cable_data(scenario).weight * float(np.max(_lengths(scenario)))
+
+
+def at_rest(scenario: Scenario, rope: Rope, water: Water) -> tuple[RopeState, Shape]:
+    """The rope as it hangs in the current at the start, and the shape it was found in.
+
+    Raises:
+        ValueError: there is no such shape.
+    """
     state = make_state(section(scenario).elements)
-    start = top_at(scenario.winch, 0.0)
-    outside = state.outside[0]
+    start, outside = top_at(scenario.winch, 0.0), state.outside[0]
     outside.length, outside.payout_speed = float(start.length), float(start.speed)
     place, speed = (part[0] for part in vessel_in_space(scenario, np.zeros(1)))
     outside.vessel_position[:], outside.vessel_speed[:] = place, speed
-    sigma = node_positions(state.stretch.shape[1])
-    found = hanging_shape(rope, water, outside.length, place, np.zeros(3), sigma)
+    found = hanging_shape(rope, water, outside.length, place, np.zeros(3), node_positions(section(scenario).elements))
     put_shape(state, found.slopes, outside.length)
-    if isinstance(scenario.initial, Straight) and not outside.payout_speed and not speed.any():
-        settle(rope, state, np.zeros(0), water._replace(flow=water.flow[:1].repeat(3, axis=0)))
-    elif not isinstance(scenario.initial, Straight):
+    return state, found
+
+
+def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
+    """The rope at the start: as it hangs in the current; another initial shape is laid over that, at rest."""
+    state, _ = at_rest(scenario, rope, water)
+    outside = state.outside[0]
+    if not isinstance(scenario.initial, Straight):
+        sigma = node_positions(state.stretch.shape[1])
         lean(state, slope_of_shape(scenario, sigma) / outside.length)
+    elif not outside.payout_speed and not outside.vessel_speed.any():
+        settle(rope, state, np.zeros(0), water)
     move_with_the_winch(state)
     look_at_rope(rope, state)
     return state
@@ -130,6 +148,3 @@ def move_with_the_winch(state: RopeState) -> None:
         along = outside.payout_speed / outside.length * state.now[:, i * n : (i + 1) * n]
         state.now[:, (3 + i) * n : (4 + i) * n] = outside.vessel_speed[i] + along
         state.body[0, i] = state.now[4, (4 + i) * n - 1]
-
-
-__all__ = ["initial_rope", "rope_of", "rope_step", "section", "still_water", "stiffness", "substeps"]

@@ -29,9 +29,7 @@ def impedance_across(rope: Rope, stretch: float) -> float:
 
 
 @kernel
-def meet(
-    rope: Rope, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray
-) -> None:
+def meet(rope: Rope, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray) -> None:
     """W and N t at the interfaces inside the cable into ``star``; the power they take is added to the grid's."""
     n = stretch.shape[1]
     along = sqrt(rope.stiffness * rope.density)

@@ -16,7 +16,6 @@ from umbilical.plant.rope.records import (
     STAGES,
     Rope,
     RopeOutside,
-    RopeState,
     Water,
     make_above,
     make_state,
@@ -162,9 +161,7 @@ class RopeModel:
     def _hang(self, settled: bool) -> None:
         outside = self.state.outside[0]
         sigma = node_positions(self.elements)
-        found = hanging_shape(
-            self.rope, self.water, outside.length, outside.vessel_position.copy(), self._force, sigma
-        )
+        found = hanging_shape(self.rope, self.water, outside.length, outside.vessel_position.copy(), self._force, sigma)
         put_shape(self.state, found.slopes, outside.length)
         if settled and outside.payout_speed == 0.0 and not outside.vessel_speed.any():
             settle(self.rope, self.state, np.zeros(0), self.water)

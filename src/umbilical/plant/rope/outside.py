@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from umbilical.plant import signals
-from umbilical.plant.exogenous import Inputs, Outside, Steps
+from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps
 from umbilical.plant.rope.records import STAGES, RopeOutside, Water
 from umbilical.plant.signals import Array, Side
 from umbilical.plant.top import top_at, vessel_at
@@ -58,9 +58,11 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
         vessel_at(environment.model_copy(update={"vessel_motion": signal}), instants, side)
         for signal in (rope.vessel_across, rope.vessel_heave)
     ]
-    place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
+    pairs: Any = zip(along, *others, strict=True)
+    place, speed = (np.asarray(np.stack(parts, axis=-1), dtype=np.float64) for parts in pairs)
     if rope.sea is not None:
-        heave, rate = _faded(heave_of(rope.sea, scenario.seed, environment.gravity), instants, environment.vessel_ramp)
+        sea: Any = rope.sea  # frozen records have a hash, which type checkers cannot see
+        heave, rate = _faded(heave_of(sea, scenario.seed, environment.gravity), instants, environment.vessel_ramp)
         place[..., 2] += heave
         speed[..., 2] += rate
     return place, speed
@@ -100,8 +102,9 @@ class RopeSampler:
         plane = self._plane.sample(steps)
         world = RopeOutside.many(steps.start.size, STAGES)
         middle = 0.5 * (steps.start + steps.end)
-        for stage, (t, side) in enumerate(((steps.start, "right"), (steps.end, "left"), (middle, "right"))):
-            self._fill(world[:, stage], t, side)
+        self._fill(world[:, START], steps.start, "right")
+        self._fill(world[:, END], steps.end, "left")
+        self._fill(world[:, MIDDLE], middle, "right")
         ends = plane.loads
         loads = np.stack([ends[:, :, 0], ends[:, :, 1], 0.5 * (ends[:, :, 0] + ends[:, :, 1])], axis=1)
         return RopeInputs(plane, world, np.ascontiguousarray(loads), self._water)

@@ -112,9 +112,7 @@ def evaluate(
     pull_of(rope, state.now, state.stretch, state.pull, length)
     meet(rope, state.now, state.pull, state.stretch, state.star, state.power)
     meet_vessel(rope, state.now, state.pull, state.stretch, state.star, state.power, outside, state.ends[0])
-    meet_body(
-        rope, state.now, state.pull, state.stretch, state.star, state.power, state.body[0], state.ends[0], length
-    )
+    meet_body(rope, state.now, state.pull, state.stretch, state.star, state.power, state.body[0], state.ends[0], length)
     find_gradients(state)
     if rope.wet:
         look_at_water(state, water, stage, outside.vessel_position)

@@ -19,8 +19,8 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from umbilical.plant.elements import NODES
-from umbilical.plant.rope.records import Rope, RopeState, Water
 from umbilical.plant.rope.rates import evaluate
+from umbilical.plant.rope.records import Rope, RopeState, Water
 from umbilical.plant.rope.step import look_at_rope
 
 _WIDEST = 1.5
@@ -77,7 +77,8 @@ def hanging_shape(
     reach = _WIDEST * length
     height = vessel[2] + (from_depth(vessel[2]).y[5, 0] - from_depth(vessel[2]).y[5, -1])
     if water.heights.size > 1:
-        height = brentq(miss, vessel[2] - reach, vessel[2] + reach, xtol=1e-9)  # pyright: ignore[reportAssignmentType]
+        root: Any = brentq(miss, vessel[2] - reach, vessel[2] + reach, xtol=1e-9)
+        height = float(root)
     found = from_depth(height, dense_output=True)
     pull = found.sol(length * (1.0 - np.ravel(sigma)))[:3].T
     size = np.sqrt((pull**2).sum(axis=1, keepdims=True))
@@ -131,7 +132,7 @@ def _load(rope: Rope) -> float:
 
 
 def settle(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, *, rounds: int = 8) -> float:
-    """Newton's method for the state that keeps still with the winch stopped; the largest rate that is left, SI units."""
+    """Newton's method for the state that keeps still, winch stopped; the largest rate that is left, SI units."""
     rest = np.inf
     for _ in range(rounds):
         at = unknowns(state).copy()

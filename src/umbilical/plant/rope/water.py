@@ -10,7 +10,7 @@ from umbilical.plant.rope.records import Water
 
 @kernel
 def flow_at(water: Water, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
-    """Velocity and acceleration at a height into ``out[at], out[at + step], ...``, six numbers; linear between levels."""
+    """Velocity and acceleration at a height into ``out[at], out[at + step], ...``, six numbers; linear between."""
     known, levels = water.heights, water.heights.size
     k = 1
     while k < levels - 1 and height < known[k]:

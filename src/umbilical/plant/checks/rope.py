@@ -1,0 +1,168 @@
+"""Checks of a scenario with ``model = "rope"``: stretch, weights, water, thrusters, and the steps it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi
+
+import numpy as np
+
+from umbilical.plant.checks.timeline import MOST_STEPS, check_signal
+from umbilical.errors import Problem
+from umbilical.plant.rope.assemble import at_rest, cable_data, rope_of, rope_step, section, stiffness, weights_of
+from umbilical.plant.rope.outside import still_water
+from umbilical.plant.top import top_at
+from umbilical.relations.instants import apart
+from umbilical.scenario.findings import Finding, Notice, amount
+from umbilical.scenario.rope import Rope
+from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.signals import Pulse, Signal, Step
+
+_STIFF, _WEAK = 100.0, 10.0
+"""EA over the largest static load: below the first a stretch of 1 % is told, below the second refused."""
+_SECONDS = 2.5e-7
+"""Of computing for a node in a step, roughly."""
+_STEEPEST = 1.0 / 7.0
+_OFF = 0.05
+"""Share of the weight in air by which stated and derived weight in water may differ before it is told."""
+
+
+def signals_of(rope: Rope) -> Iterator[tuple[str, Signal, str]]:
+    """Signals of the section with their keys and units."""
+    yield "rope.vessel_across", rope.vessel_across, "m"
+    yield "rope.vessel_heave", rope.vessel_heave, "m"
+    yield "rope.force_across", rope.force_across, "N"
+    yield "rope.force_up", rope.force_up, "N"
+
+
+def read_at_all(scenario: Scenario) -> Iterator[Finding]:
+    """A section that nobody reads is told."""
+    if scenario.rope is not None and scenario.model != "rope":
+        yield Notice("rope", 'nothing of this section counts for the string; model = "rope" reads it')
+
+
+def signals(scenario: Scenario) -> Iterator[Finding]:
+    """Terms of the section's signals make sense and cover the run; a ship does not jump."""
+    for key, signal, _ in signals_of(section(scenario)):
+        yield from check_signal(key, signal, scenario.duration)
+        for number, term in enumerate(signal, start=1):
+            if "vessel" in key and isinstance(term, Step | Pulse):
+                yield Problem(
+                    f"{key}.{number}.kind",
+                    f'"{term.kind}"',
+                    "constant, sine, bell or table",
+                    "a jump of the vessel would tear the cable's end to another place at once",
+                    "a table of the motion, or a bell",
+                )
+
+
+def stretch(scenario: Scenario) -> Iterator[Finding]:
+    """The cable bears what hangs on it."""
+    given, load = stiffness(scenario), max(weights_of(scenario))
+    if given < _WEAK * load:
+        yield Problem(
+            "rope.axial_stiffness",
+            amount(given, "N"),
+            f"above {_WEAK * load:.4g} N, ten times the static tension",
+            "the cable would stretch by more than a tenth, where no material is linear",
+            "the force over strain of the whole cable, EA, in newton",
+        )
+    elif given < _STIFF * load:
+        yield Notice("rope.axial_stiffness", f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
+
+
+def weights(scenario: Scenario) -> Iterator[Finding]:
+    """Something pulls all along the cable at the start, and what is said of weights agrees."""
+    end, top = weights_of(scenario)
+    if not min(end, top) > 0.0:
+        yield Problem(
+            "rope.line_weight",
+            f"a static tension of {min(end, top):.4g} N",
+            "above 0 all along the cable",
+            "a cable that lifts the body up has no shape to start from under the sheave",
+            "a heavier body (payload.wet_weight), a clump, or a cable that floats less",
+        )
+    data = cable_data(scenario)
+    area = pi * data.diameter**2 / 4.0
+    derived = (data.density - 1025.0 * area) * scenario.environment.gravity
+    if data.diameter and abs(derived - data.weight) > _OFF * data.density * scenario.environment.gravity:
+        yield Notice(
+            "rope.diameter",
+            f"{data.density:g} kg/m and {data.diameter:g} m in sea water weigh {derived:.4g} N/m, not the stated "
+            f"{data.weight:.4g} N/m",
+        )
+
+
+def water(scenario: Scenario) -> Iterator[Finding]:
+    """Levels of the current differ, and the sea is not steeper than a sea can be."""
+    rope = section(scenario)
+    heights = [level.height for level in rope.current]
+    for number, height in enumerate(heights, start=1):
+        if height in heights[: number - 1]:
+            yield Problem(
+                f"rope.current.{number}.height",
+                amount(height, "m"),
+                "another height than the levels before it",
+                "the water has one velocity at a height",
+                "one level for each height",
+            )
+    if rope.sea is not None:
+        steepness = 2.0 * pi * rope.sea.significant_height / (9.81 * rope.sea.peak_period**2)
+        if steepness > _STEEPEST:
+            yield Problem(
+                "rope.sea.significant_height",
+                amount(rope.sea.significant_height, "m"),
+                f"at most a seventh of the wavelength, {_STEEPEST * 9.81 * rope.sea.peak_period**2 / (2 * pi):.4g} m",
+                "steeper waves break",
+                "a lower sea or a longer period",
+            )
+
+
+def thrusters(scenario: Scenario) -> Iterator[Finding]:
+    """Every motor has a direction; a direction that nothing pushes in is told."""
+    angles = section(scenario).thrust_directions
+    if angles is not None and len(angles) != len(scenario.motors):
+        yield Problem(
+            "rope.thrust_directions",
+            f"{len(angles)} entries",
+            f"{len(scenario.motors)}, one for each motor",
+            "each motor pushes in one direction",
+            "an angle in radians for each: 0 along x, 1.5708 along y",
+        )
+    elif not scenario.ideal_thruster and scenario.motors and scenario.control.law.kind != "none":
+        towards = np.abs(np.sin(angles or (0.0,)))
+        rope = section(scenario)
+        if towards.max() < 1e-9 and (rope.force_across or rope.vessel_across or any(w.y for w in rope.current)):
+            yield Notice("rope.thrust_directions", "no motor pushes along y, where something acts: nothing holds y")
+
+
+def start(scenario: Scenario) -> Iterator[Finding]:
+    """There is a shape at rest to start from."""
+    if any(isinstance(found, Problem) for check in (weights, stretch, water, signals) for found in check(scenario)):
+        return
+    try:
+        at_rest(scenario, rope_of(scenario), still_water(section(scenario)))
+    except ValueError as error:
+        yield Problem(
+            "rope.current",
+            f"{len(section(scenario).current)} levels",
+            "a current in which the cable hangs at rest",
+            str(error),
+            "a weaker current, or a heavier body",
+        )
+
+
+def steps(scenario: Scenario) -> Iterator[Finding]:
+    """The run does not take absurdly many steps."""
+    largest, duration = rope_step(scenario), scenario.duration
+    if largest * MOST_STEPS < duration:
+        count, nodes = duration / largest, 5 * section(scenario).elements
+        shortest = float(np.min(top_at(scenario.winch, np.linspace(0.0, duration, 201)).length))
+        yield Problem(
+            "rope.elements",
+            str(section(scenario).elements),
+            f"{MOST_STEPS:g} steps, not {count:.3g}, which take {_SECONDS * nodes * count / 3600.0:.2g} hours or more",
+            f"a step is {apart(largest, duration)[0]} s: waves along the cable cross an element, {shortest:.4g} m of "
+            "cable at the shortest, or the body gives its speed to the cable, in so short a time",
+            "fewer rope.elements, a smaller rope.axial_stiffness, a heavier body, a shorter run",
+        )
