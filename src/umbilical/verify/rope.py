@@ -1,0 +1,240 @@
+"""The rope at rest and in small motions against closed forms, shooting and integration along the cable."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+import numpy as np
+
+from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, fixed
+from umbilical.plant.rope.statics import put_shape
+from umbilical.verify.cases import Case, Check, close, each_close, small
+from umbilical.verify.references import rope as reference
+from umbilical.verify.references.sea import Hanging, heave_of_masses
+
+G = 9.81
+HUNG = "Irvine, Cable Structures, 2"
+COMPUTED = "computed with the case"
+
+
+def steady(length: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """A winch that stands still."""
+    return lambda t: (np.full(np.shape(t), length), np.zeros(np.shape(t)))
+
+
+def quintic(start: float, end: float, duration: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """A winch law without jerks at its ends."""
+
+    def law(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        q = np.clip(t / duration, 0.0, 1.0)
+        length = start + (end - start) * q**3 * (10.0 - 15.0 * q + 6.0 * q * q)
+        return length, (end - start) / duration * 30.0 * q * q * (1.0 - q) ** 2
+
+    return law
+
+
+def waving(
+    waves: dict[int, tuple[float, float]], ramp: float
+) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Place and velocity of the sheave: amplitude, m, and frequency, rad/s, along some axes, faded in over a ramp, s."""
+
+    def motion(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        t = np.asarray(t, dtype=float)
+        q = np.clip(t / ramp, 0.0, 1.0)
+        fade, fade_rate = q * q * (3.0 - 2.0 * q), 6.0 * q * (1.0 - q) / ramp
+        place, speed = np.zeros((*t.shape, 3)), np.zeros((*t.shape, 3))
+        for axis, (amplitude, omega) in waves.items():
+            sine, cosine = amplitude * np.sin(omega * t), amplitude * omega * np.cos(omega * t)
+            place[..., axis], speed[..., axis] = fade * sine, fade * cosine + fade_rate * sine
+        return place, speed
+
+    return motion
+
+
+def catenary() -> Iterator[Check]:
+    """An elastic catenary under a horizontal force on the body."""
+    model = RopeModel(CableData(2e7, 3.0, 20.0), BodyData(400.0, 3000.0), fixed(500.0), force=(4000.0, 0.0, 0.0))
+    reach, depth, top = reference.elastic_catenary(500.0, 20.0, 3000.0, 4000.0, 2e7)
+    why = "the state of the grid that keeps still"
+    yield close("reach of the body, m", model.body_position[0], reach, 1e-6, why)
+    yield close("depth of the body, m", -model.body_position[2], depth, 1e-6, why)
+    yield close("tension at the top, N", model.tension[0], top, 1e-6, why)
+
+
+def modes() -> Iterator[Check]:
+    """Frequencies of the hanging cable, of the engine's own rates, each in two planes."""
+    model = RopeModel(CableData(2e7, 2.0, 2.0 * G), BodyData(500.0, 500.0 * G), fixed(500.0), elements=8)
+    found = model.modes()
+    undamped = found[np.abs(found.real) < 1e-3 * np.abs(found)].imag
+    exact = np.repeat(reference.transverse_modes(4, 500.0, 2.0, 500.0, 2e7), 2)
+    yield each_close("four transverse modes, twice, rad/s", undamped[:8], exact, 1e-6, "8 elements")
+    axial = reference.axial_modes(2, 500.0, 2.0, 500.0, 2e7)
+    nearest = [float(undamped[np.argmin(np.abs(undamped - omega))]) for omega in axial]
+    yield each_close("two axial modes, rad/s", nearest, axial, 2e-4, "8 elements, static stretch left out")
+
+
+def pendulum() -> Iterator[Check]:
+    """A heavy body on a light cable let go at 60 degrees: its period, and the tension at the bottom.
+
+    The straight cable starts a few millimetres from the shape in which it swings, vibrates across at some 44 rad/s, and
+    the stretch of that beats at twice as much; the mean over a swing shows none of it (docs/rope.md).
+    """
+    angle, mass, density = np.pi / 3.0, 500.0, 1.25e-3
+    force = (mass * G * np.tan(angle), 0.0, 0.0)
+    model = RopeModel(
+        CableData(2e8, density, density * G), BodyData(mass, mass * G), fixed(50.0), elements=2, force=force
+    )
+    towards = np.array([np.sin(angle), 0.0, -np.cos(angle)])
+    pull = mass * G * np.cos(angle) + density * G * np.cos(angle) * 50.0 * model.rope.above
+    put_shape(model.state, (1.0 + pull / 2e8)[..., None] * towards, 50.0)
+    model.step(0.02, force=0.0)
+    times, places, excess = [], [], []
+    while model.body_position[0] > 0.0:
+        model.step(0.01)
+        place = model.body_position
+        times.append(model.time)
+        places.append(place[0])
+        exact = mass * G * (-3.0 * place[2] / np.linalg.norm(place) - 2.0 * np.cos(angle))
+        excess.append(float(np.linalg.norm(model.end_pull)) / exact - 1.0)
+    crossing = times[-2] + 0.01 * places[-2] / (places[-2] - places[-1])
+    yield close("period, s", 4.0 * crossing, reference.pendulum_period(50.0, angle), 5e-4, "EA 2e8 for no stretch")
+    yield small("mean of the tension's excess over m g (3 cos - 2 cos 60)", np.mean(excess[50:]), 1e-4, "cable's mass")
+    yield small("largest excess", np.abs(excess[50:]).max(), 2e-3, "the cable's own vibration, see docs/rope.md")
+
+
+def heave() -> Iterator[Check]:
+    """A damped body on 3000 m in regular heave."""
+    for omega in (0.5, 0.9, 1.2):
+        motion = Motion(steady(3000.0), waving({2: (0.3, omega)}, 20.0))
+        body = BodyData(8000.0, 8000.0 * G, damping=1.2e4)
+        model = RopeModel(CableData(2e7, 5.0, 5.0 * G), body, motion)
+        model.step(100.0)
+        count = 200
+        rows = []
+        for _ in range(count):
+            model.step(2.0 * np.pi / omega / count)
+            rows.append((model.body_position[2], float(np.linalg.norm(model.top_pull))))
+        found = np.abs(np.fft.rfft(np.array(rows), axis=0)[1]) * 2.0 / count / 0.3
+        place, _, top = heave_of_masses(Hanging(2e7, 5.0, 8000.0, 3000.0), 1.2e4, np.array([omega]))
+        exact = [abs(place[0]), abs(top[0])]
+        yield each_close(f"body and tension at the top at {omega:g} rad/s", found, exact, 4e-3, "first harmonic")
+
+
+SHEAR = Current((0.0, -200.0, -1000.0), ((0.8, 0.1, 0.0), (0.5, 0.2, 0.0), (0.2, -0.1, 0.0)))
+
+
+def sheared_current() -> Iterator[Check]:
+    """A cable of 1000 m with a body in a current that turns with depth."""
+    cable = CableData(1.5e7, 3.2, 22.0, 0.03, 1.2, 0.01)
+    drag = (1800.0, 1800.0, 3000.0)
+    body = BodyData(4000.0, 15000.0, (2000.0, 2000.0, 3000.0), drag=drag)
+    model = RopeModel(cable, body, fixed(1000.0), SHEAR)
+    levels, speeds = np.array(SHEAR.heights[::-1]), np.array(SHEAR.velocities[::-1])
+
+    def current(z: float) -> np.ndarray:
+        return np.array([np.interp(z, levels, speeds[:, k]) for k in range(3)])
+
+    place, top = reference.shape_in_current(
+        reference.Towed(1.5e7, 22.0, 0.03, 1.2, 0.01, 1.0, 1000.0, 15000.0, drag), current
+    )
+    yield each_close("place of the body, m", model.body_position, place, 1e-4, "kinks of the profile in an element")
+    yield close("tension at the top, N", model.tension[0], top, 1e-4, "likewise")
+
+
+TOWED = CableData(1e7, 1.2, 8.0, 0.0173, 1.5, 0.02)
+TOWED_BODY = BodyData(300.0, 1500.0, (100.0, 200.0, 200.0), drag=(200.0, 200.0, 300.0))
+
+
+def tow() -> Iterator[Check]:
+    """600 m towed at 1.5 m/s, in a current, and by a moving vessel in still water."""
+    flow = Current((0.0,), ((1.5, 0.0, 0.0),))
+    model = RopeModel(TOWED, TOWED_BODY, fixed(600.0), flow)
+    towed = reference.Towed(1e7, 8.0, 0.0173, 1.5, 0.02, 1.0, 600.0, 1500.0, (200.0, 200.0, 300.0))
+    place, top = reference.shape_in_current(towed, lambda z: np.array([1.5, 0.0, 0.0]))
+    yield close("reach behind the vessel, m", model.body_position[0], place[0], 1e-6, "the grid at rest")
+    yield close("depth, m", -model.body_position[2], -place[2], 1e-6, "the grid at rest")
+    yield close("tension at the top, N", model.tension[0], top, 1e-6, "the grid at rest")
+
+    def away(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        direction = np.array([-1.5, 0.0, 0.0])
+        return np.multiply.outer(t, direction), np.broadcast_to(direction, (*np.shape(t), 3))
+
+    moving = RopeModel(TOWED, TOWED_BODY, Motion(steady(600.0), away))
+    n = moving.elements
+    moving.state.now[:] = model.state.now
+    moving.state.now[:, 3 * n : 4 * n] -= 1.5
+    moving.state.body[0] = (-1.5, 0.0, 0.0)
+    moving.step(20.0)
+    off = moving.body_position + np.array([30.0, 0.0, 0.0]) - model.body_position
+    yield small("vessel moves instead of the water: place after 20 s, m", np.abs(off).max(), 1e-6, "Galilei")
+
+
+def winch(start: float, end: float) -> Iterator[Check]:
+    """Paying out or hauling in: the tension at the top follows (m + rho l)(g - a)."""
+    law = quintic(start, end, 50.0)
+    model = RopeModel(CableData(2e8, 2.0, 2.0 * G), BodyData(500.0, 500.0 * G), Motion(law), booked=True)
+    before, worst = model.energy, 0.0
+    for _ in range(60):
+        model.step(1.0)
+        q = min(model.time / 50.0, 1.0)
+        sinking = (end - start) / 2500.0 * 60.0 * q * (1.0 - q) * (1.0 - 2.0 * q)
+        exact = (500.0 + 2.0 * model.length) * (G - sinking)
+        worst = max(worst, abs(float(np.linalg.norm(model.top_pull)) / exact - 1.0))
+    yield small("tension at the top, largest relative error", worst, 2e-4, "inextensible reference, EA 2e8")
+    stretched = end + (500.0 * G * end + 0.5 * 2.0 * G * end**2) / 2e8
+    yield close("depth in the end, m", -model.body_position[2], stretched, 1e-6, "static stretch")
+    works = model.works
+    residual = (model.energy - before - sum(works.values())) / abs(works["work_weight"])
+    yield small("power balance, what is left over the work of the weight", residual, 1e-9, "time integration")
+
+
+def momentum(end: float) -> Iterator[Check]:
+    """Paying out or hauling in under a vessel that moves in space: momentum against impulse at the sheave and weight."""
+    waves = {0: (0.7, 0.5), 1: (1.0, 0.7), 2: (0.5, 0.9)}
+    cable, body = CableData(2e7, 3.0, 3.0 * G), BodyData(800.0, 800.0 * G)
+    motion = Motion(quintic(400.0, end, 40.0), waving(waves, 8.0))
+    model = RopeModel(cable, body, motion, booked=True)
+    start, before, dt = _momentum(model), model.energy, 0.005
+    rates = [_force(model)]
+    for _ in range(8000):
+        model.step(dt)
+        rates.append(_force(model))
+    f = np.array(rates)
+    impulse = dt / 3.0 * (f[0] + f[-1] + 4.0 * f[1:-1:2].sum(axis=0) + 2.0 * f[2:-1:2].sum(axis=0))
+    misfit = np.abs(_momentum(model) - start - impulse).max() / (800.0 * G)
+    yield small("change of momentum less impulse, over m g s", misfit, 1e-5, "Simpson's rule over 5 ms")
+    works = model.works
+    residual = (model.energy - before - sum(works.values())) / abs(works["work_weight"])
+    yield small("power balance, what is left over the work of the weight", residual, 1e-8, "time integration")
+
+
+def _momentum(model: RopeModel) -> np.ndarray:
+    weights = np.array([1 / 10, 49 / 90, 32 / 45, 49 / 90, 1 / 10]) / 2.0
+    n = model.elements
+    parts = model.state.now[:, 3 * n :].reshape(5, 3, n)
+    along = np.einsum("j,jie->i", weights, parts) / n * model.length
+    return model.rope.density * along + model.rope.inertia * model.body_velocity
+
+
+def _force(model: RopeModel) -> np.ndarray:
+    """Force on cable and body, and the momentum that comes in with cable: the velocity is that of what passes."""
+    n, speed = model.elements, float(model.state.outside[0].payout_speed)
+    entering = model.state.ends[0].top_velocity
+    passing = entering if speed > 0.0 else model.state.now[0, [3 * n, 4 * n, 5 * n]]
+    weight = model.rope.body_weight + model.rope.weight * model.length
+    return -model.top_pull + speed * model.rope.density * passing - np.array([0.0, 0.0, weight])
+
+
+CASES = (
+    Case("rope, elastic catenary", "closed form", HUNG, catenary),
+    Case("rope, modes of the hanging cable", "shooting; b tan b = rho l/m", COMPUTED, modes),
+    Case("rope, pendulum of 60 degrees", "elliptic integral", "textbook", pendulum),
+    Case("rope, heave of 3000 m", "2000 masses on springs", COMPUTED, heave),
+    Case("rope, sheared current", "integration along the cable", COMPUTED, sheared_current),
+    Case("rope, tow", "integration along the cable; Galilei", COMPUTED, tow),
+    Case("rope, paying out", "(m + rho l)(g - a)", "axial balance", partial(winch, 450.0, 500.0)),
+    Case("rope, hauling in", "(m + rho l)(g - a)", "axial balance", partial(winch, 500.0, 450.0)),
+    Case("rope, momentum, paying out", "impulse", "Newton", partial(momentum, 460.0), quick=False),
+    Case("rope, momentum, hauling in", "impulse", "Newton", partial(momentum, 340.0), quick=False),
+)

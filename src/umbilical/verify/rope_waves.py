@@ -1,0 +1,170 @@
+"""Fronts, snaps and a real sea on the rope against characteristics, masses on springs and linearisation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+import numpy as np
+
+from umbilical.engine import simulate
+from umbilical.admission import load
+from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, fixed
+from umbilical.verify.cases import Case, Check, close, each_close, small
+from umbilical.verify.references import rope as reference
+from umbilical.verify.references.sea import work_class_statistics
+from umbilical.verify.rope import COMPUTED, G, steady, waving
+
+WINDOW = 0.025
+"""s; peaks behind a front are those of the mean over it: at the front itself any grid rings."""
+
+
+def front(elements: int, tolerance: float) -> Iterator[Check]:
+    """A heave velocity that sets in at once runs down 1000 m to a body."""
+    omega, speed, impedance = 2.0 * np.pi / 0.4, 0.157, float(np.sqrt(3.0 * 2e7))
+
+    def vessel(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        zero = np.zeros(np.shape(t))
+        up, rate = speed / omega * np.sin(omega * t), speed * np.cos(omega * t)
+        return np.stack([zero, zero, up], axis=-1), np.stack([zero, zero, rate], axis=-1)
+
+    model = RopeModel(
+        CableData(2e7, 3.0, 0.0), BodyData(2000.0, 2000.0 * G), Motion(steady(1000.0), vessel), elements=elements
+    )
+    times, found = _follow(model, 0.43, 2.5e-4)
+    travel = 1000.0 / np.sqrt(2e7 / 3.0)
+    exact = reference.wave_on_body(impedance, 2000.0, speed, omega, times - travel)
+    half = times[np.flatnonzero(found[:, 0] > 0.5 * exact.max())[0]]
+    yield close("arrival at the body, s", float(half), float(travel), 5e-3, f"{elements} elements, half of the front")
+    yield close(
+        f"peak of the {1e3 * WINDOW:g} ms mean, N", _peak(times, found[:, 0]), _peak(times, exact), tolerance,
+        f"first order: {elements} elements",
+    )  # fmt: skip
+
+
+def impact(elements: int, tolerance: float) -> Iterator[Check]:
+    """A body starts at 1 m/s downwards on a taut cable: the peaks are twice v sqrt(K M) and more."""
+    model = RopeModel(CableData(2e7, 5.0, 0.0), BodyData(5000.0, 30e3), fixed(1000.0), elements=elements)
+    model.state.body[0] = (0.0, 0.0, -1.0)
+    times, found = _follow(model, 1.98, 2.5e-4)
+    exact = reference.thrown_body(1e4, 5000.0, 0.5, 1.0, times)
+    early = times < 1.4
+    pairs = (("body", found[early, 0], exact[0][early]), ("top", found[:, 1], exact[1]))
+    for name, ours, theirs in pairs:
+        peak, should = _peak(times[: ours.size], ours), _peak(times[: ours.size], theirs)
+        why = f"first order: {elements} elements"
+        yield close(f"peak of the {1e3 * WINDOW:g} ms mean at the {name}, N", peak, should, tolerance, why)
+
+
+def _follow(model: RopeModel, duration: float, dt: float) -> tuple[np.ndarray, np.ndarray]:
+    """Times, s, and tension at body and top above what they were at the start, N, shape (samples, 2)."""
+    start = np.array([model.tension[-1], model.tension[0]])
+    if model.body_velocity.any():
+        start[0] = model.rope.body_weight
+    rows = []
+    for _ in range(round(duration / dt)):
+        model.step(dt)
+        rows.append((float(np.linalg.norm(model.end_pull)), float(np.linalg.norm(model.top_pull))))
+    return dt * np.arange(1, len(rows) + 1), np.array(rows) - start
+
+
+def _peak(times: np.ndarray, values: np.ndarray) -> float:
+    """Largest mean over :data:`WINDOW`."""
+    count = round(WINDOW / (times[1] - times[0]))
+    return float(np.convolve(values, np.full(count, 1.0 / count), mode="valid").max())
+
+
+HEAVED = CableData(2e7, 5.0, 3.5 * G, 0.04, 1.2, 0.01)
+HEAVED_BODY = BodyData(8000.0, 30e3, 9000.0, drag=4000.0)
+
+
+def _heaved(amplitude: float, elements: int, duration: float) -> tuple[np.ndarray, RopeModel]:
+    """Tension at top and body, height of the body over the last periods, shape (samples, 3)."""
+    motion = Motion(steady(1000.0), waving({2: (amplitude, 2.0 * np.pi / 8.0)}, 20.0))
+    model = RopeModel(HEAVED, HEAVED_BODY, motion, elements=elements, booked=True)
+    model.step(60.0)
+    rows = []
+    for _ in range(round(duration / 0.01)):
+        model.step(0.01)
+        rows.append(
+            (float(np.linalg.norm(model.top_pull)), model.body_position[2], float(np.linalg.norm(model.end_pull)))
+        )
+    return np.array(rows), model
+
+
+def _masses(amplitude: float, masses: int, duration: float) -> np.ndarray:
+    """The same of masses on springs."""
+    heave = waving({2: (amplitude, 2.0 * np.pi / 8.0)}, 20.0)
+
+    def at(t: float) -> tuple[float, float]:
+        place, speed = heave(np.array(t))
+        return float(place[2]), float(speed[2])
+
+    tangential = 0.5 * 1025.0 * np.pi * 0.04 * 0.01
+    cable = reference.Heaved(2e7, 5.0, 3.5 * G, tangential, 1000.0, 17000.0, 30e3, 4000.0)
+    times = np.concatenate([[0.0], 60.0 + 0.02 * np.arange(1, round(duration / 0.02) + 1)])
+    return np.stack(reference.heaved_masses(cable, at, times, masses), axis=1)[1:]
+
+
+def _said(rows: np.ndarray) -> np.ndarray:
+    """Largest and smallest tension at the top, N, and half the swing of the body, m."""
+    return np.array([rows[:, 0].max(), rows[:, 0].min(), 0.5 * np.ptp(rows[:, 1])])
+
+
+def taut_heave() -> Iterator[Check]:
+    """A work-class body on 1000 m in 0.8 m of heave, 8 s, with drag."""
+    found, model = _heaved(0.8, 10, 40.0)
+    coarse, fine = (_said(_masses(0.8, count, 40.0)) for count in (40, 80))
+    exact = fine + (fine - coarse) / 3.0
+    why = "masses on 40 and 80 springs, second order taken out"
+    yield each_close("tension at the top, largest and smallest, N", _said(found)[:2], exact[:2], 1e-3, why)
+    yield close("half the swing of the body, m", float(_said(found)[2]), float(exact[2]), 1e-3, why)
+    works = model.works
+    gross = sum(abs(work) for work in works.values())
+    yield small("power balance, what is left over gross work", _left(model) / gross, 1e-6, "time integration")
+
+
+def _left(model: RopeModel) -> float:
+    """Energy less all work since the start from rest, J."""
+    still = RopeModel(HEAVED, HEAVED_BODY, fixed(1000.0), elements=model.elements)
+    return model.energy - still.energy - sum(model.works.values())
+
+
+def snapping() -> Iterator[Check]:
+    """2 m of heave: slack and snaps, on three grids, against masses on springs."""
+    lumped = _masses(2.0, 60, 80.0)
+    share = float(np.mean(lumped[:, 2] < 1.0))
+    for elements in (4, 8, 16):
+        rows, model = _heaved(2.0, elements, 80.0)
+        why = f"{elements} elements, 60 masses"
+        yield close("half the swing of the body, m", float(_said(rows)[2]), float(_said(lumped)[2]), 5e-3, why)
+        yield small("share of time with slack at the body, off by", np.mean(rows[:, 2] < 1.0) - share, 1e-2, why)
+        yield close("largest tension at the top, N", float(rows[:, 0].max()), float(lumped[:, 0].max()), 0.05, why)
+        gross = sum(abs(work) for work in model.works.values())
+        yield small("power balance, what is left over gross work", _left(model) / gross, 2e-3, "steps through snaps")
+
+
+def irregular() -> Iterator[Check]:
+    """An hour of irregular sea on 3000 m, bow quarter, Hs 2.5 m: rms against stochastic linearisation."""
+    run = simulate(load("rope-work-class"))
+    late = run.data.sel(time=slice(200.0, None))
+    exact = work_class_statistics(2.5, 3000.0, np.radians(135.0))
+    why = "linearised drag, and one hour of a random sea"
+    found = [float(late[name].std()) for name in ("top_tension", "end_tension")]
+    yield each_close("rms of the tension at top and end, N", found, [exact["top"], exact["end"]], 0.08, why)
+    body = float(late["body_position"].isel(axis=2).std())
+    yield close("rms of the body's heave, m", body, exact["body"], 0.08, why)
+
+
+CASES = (
+    *(
+        Case(f"rope, front, {n} elements", "characteristics", COMPUTED, partial(front, n, tolerance), quick=n < 20)
+        for n, tolerance in ((10, 0.08), (20, 0.04), (40, 0.02))
+    ),
+    *(
+        Case(f"rope, impact, {n} elements", "characteristics", COMPUTED, partial(impact, n, tolerance), quick=n < 20)
+        for n, tolerance in ((10, 0.08), (20, 0.04), (40, 0.02))
+    ),
+    Case("rope, taut heave", "masses on springs", COMPUTED, taut_heave, quick=False),
+    Case("rope, snaps", "masses on springs without push", COMPUTED, snapping, quick=False),
+)
