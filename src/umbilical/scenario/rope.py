@@ -20,8 +20,8 @@ class WaterLevel(Record):
     """Velocity of the water at one height, linear between levels; the highest and the lowest hold beyond."""
 
     height: float = quantity("water_height", le=0.0, ge=-2e4, reason="0 is the surface", cure="metres, negative below")
-    x: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s")
-    y: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s")
+    x: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s, not knots")
+    y: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s, not knots")
 
 
 class Sea(Record):
@@ -30,17 +30,19 @@ class Sea(Record):
     significant_height: float = quantity(
         "significant_height", ge=0.0, le=20.0, reason="a sea", cure="metres, four standard deviations"
     )
-    peak_period: float = quantity("peak_period", ge=2.0, le=30.0, reason="a sea", cure="seconds")
+    peak_period: float = quantity(
+        "peak_period", ge=2.0, le=30.0, reason="a sea", cure="the period at the peak of the spectrum, e.g. 8 s"
+    )
     peakedness: float = quantity("peakedness", 3.3, ge=1.0, le=7.0, reason="1 to 7 are seas", cure="3.3")
     heading: float = quantity(
         "wave_heading", 2.356194490192345, ge=-6.3, le=6.3, reason="an angle", cure="radians: 0 following, pi head sea"
     )
     components: int = Field(default=100, ge=20, le=2000, description="waves of equal energy")
-    ship_length: float = quantity("ship_length", gt=0.0, le=500.0, reason="a ship", cure="metres")
-    breadth: float = quantity("ship_breadth", gt=0.0, le=100.0, reason="a ship", cure="metres")
-    draught: float = quantity("ship_draught", gt=0.0, le=30.0, reason="a ship", cure="metres")
+    ship_length: float = quantity("ship_length", gt=0.0, le=500.0, reason="a ship", cure="in metres, at the waterline")
+    breadth: float = quantity("ship_breadth", gt=0.0, le=100.0, reason="a ship", cure="in metres, at the waterline")
+    draught: float = quantity("ship_draught", gt=0.0, le=30.0, reason="a ship", cure="in metres, at the waterline")
     block_coefficient: float = quantity("block_coefficient", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9")
-    sheave_forward: float = quantity("sheave_forward", 0.0, ge=-500.0, le=500.0, reason="pitch", cure="metres")
+    sheave_forward: float = quantity("sheave_forward", 0.0, ge=-500.0, le=500.0, reason="pitch", cure="negative aft")
 
 
 class Rope(Record):

@@ -34,10 +34,8 @@ def quintic(start: float, end: float, duration: float) -> Callable[[np.ndarray],
     return law
 
 
-def waving(
-    waves: dict[int, tuple[float, float]], ramp: float
-) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
-    """Place and velocity of the sheave: amplitude, m, and frequency, rad/s, along some axes, faded in over a ramp, s."""
+def waving(waves: dict[int, tuple[float, float]], ramp: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Place and velocity of the sheave: amplitude, m, and frequency, rad/s, along some axes, faded in over it, s."""
 
     def motion(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         t = np.asarray(t, dtype=float)
@@ -190,7 +188,7 @@ def winch(start: float, end: float) -> Iterator[Check]:
 
 
 def momentum(end: float) -> Iterator[Check]:
-    """Paying out or hauling in under a vessel that moves in space: momentum against impulse at the sheave and weight."""
+    """Paying out or hauling in under a vessel that moves in space: momentum against impulse."""
     waves = {0: (0.7, 0.5), 1: (1.0, 0.7), 2: (0.5, 0.9)}
     cable, body = CableData(2e7, 3.0, 3.0 * G), BodyData(800.0, 800.0 * G)
     motion = Motion(quintic(400.0, end, 40.0), waving(waves, 8.0))

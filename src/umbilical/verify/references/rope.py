@@ -28,9 +28,7 @@ def elastic_catenary(
     return float(reach), float(depth), float(np.hypot(pull, top))
 
 
-def transverse_modes(
-    count: int, length: float, density: float, mass: float, stiffness: float = np.inf
-) -> list[float]:
+def transverse_modes(count: int, length: float, density: float, mass: float, stiffness: float = np.inf) -> list[float]:
     """Angular frequencies of a hanging elastic cable with a free end mass, rad/s, by shooting from the top."""
 
     def miss(omega: float) -> float:
