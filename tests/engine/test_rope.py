@@ -131,7 +131,7 @@ def test_snaps_are_counted_and_slack_is_measured() -> None:
     assert run.metrics["largest_snap"] > 2.0 * run["top_tension"].values[0]
     assert 0.0 < run.metrics["slack_share"] < 1.0
     assert run["lowest_tension"].values.min() == 0.0
-    assert all(np.isfinite(run[name].values).all() for name in run.data.data_vars)
+    assert all(np.isfinite(run[str(name)].values).all() for name in run.data.data_vars)
 
 
 def test_a_cable_that_parts_ends_the_run_with_a_reason() -> None:

@@ -138,7 +138,7 @@ def snapping() -> Iterator[Check]:
         rows, model = _heaved(2.0, elements, 80.0)
         why = f"{elements} elements, 60 masses"
         yield close("half the swing of the body, m", float(_said(rows)[2]), float(_said(lumped)[2]), 5e-3, why)
-        yield small("share of time with slack at the body, off by", np.mean(rows[:, 2] < 1.0) - share, 1e-2, why)
+        yield small("share of time with slack at the body, off by", float(np.mean(rows[:, 2] < 1.0)) - share, 1e-2, why)
         yield close("largest tension at the top, N", float(rows[:, 0].max()), float(lumped[:, 0].max()), 0.05, why)
         gross = sum(abs(work) for work in model.works.values())
         yield small("power balance, what is left over gross work", _left(model) / gross, 2e-3, "steps through snaps")

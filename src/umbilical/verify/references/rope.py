@@ -53,7 +53,7 @@ def axial_modes(count: int, length: float, density: float, mass: float, stiffnes
 def _roots(function: Callable[[float], float], grid: np.ndarray, count: int) -> list[float]:
     values = np.array([function(float(x)) for x in grid])
     places = np.flatnonzero(values[1:] * values[:-1] < 0.0)[:count]
-    roots: list[Any] = [brentq(function, float(grid[k]), float(grid[k + 1]), xtol=1e-14, rtol=1e-13) for k in places]
+    roots: list[Any] = [brentq(function, float(grid[k]), float(grid[k + 1]), xtol=1e-14) for k in places]
     return [float(root) for root in roots]
 
 
