@@ -9,10 +9,10 @@ import pytest
 
 import umbilical
 from umbilical import Command, Measurement, Status
-from umbilical.admission import load
 from umbilical.engine.episode import Episode
 from umbilical.engine.simulate import measure, simulate
 from umbilical.errors import ScenarioError
+from umbilical.library import load
 
 SMALL = {"environment.payload_force": [{"kind": "sine", "amplitude": 1.0, "frequency": 0.5}]}
 ROPE = {"model": "rope", "duration": 4.0}

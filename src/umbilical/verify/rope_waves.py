@@ -7,8 +7,8 @@ from functools import partial
 
 import numpy as np
 
-from umbilical.admission import load
 from umbilical.engine.simulate import simulate
+from umbilical.library import load
 from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, fixed
 from umbilical.verify.cases import Case, Check, close, each_close, small
 from umbilical.verify.references import rope as reference

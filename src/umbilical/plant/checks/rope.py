@@ -7,8 +7,8 @@ from math import pi
 
 import numpy as np
 
-from umbilical.plant.checks.timeline import MOST_STEPS, check_signal
 from umbilical.errors import Problem
+from umbilical.plant.checks.timeline import MOST_STEPS, check_signal
 from umbilical.plant.rope.assemble import at_rest, cable_data, rope_of, rope_step, section, stiffness, weights_of
 from umbilical.plant.rope.outside import still_water
 from umbilical.plant.top import top_at

@@ -50,7 +50,7 @@ def heave_of(sea: Sea, seed: int, gravity: float) -> Heave:
     return Heave(waves.omega, waves.amplitude * answer * np.exp(1j * waves.phase))
 
 
-def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Array, Array]:
+def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Any, Any]:
     """Place, m, and velocity, m/s, of the sheave at instants of any shape: shape (..., 3)."""
     instants, rope, environment = np.asarray(t, dtype=float), scenario.rope or Rope(), scenario.environment
     along = vessel_at(environment, instants, side)
@@ -58,8 +58,7 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
         vessel_at(environment.model_copy(update={"vessel_motion": signal}), instants, side)
         for signal in (rope.vessel_across, rope.vessel_heave)
     ]
-    pairs: Any = zip(along, *others, strict=True)
-    place, speed = (np.asarray(np.stack(parts, axis=-1), dtype=np.float64) for parts in pairs)
+    place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
     if rope.sea is not None:
         sea: Any = rope.sea  # frozen records have a hash, which type checkers cannot see
         heave, rate = _faded(heave_of(sea, scenario.seed, environment.gravity), instants, environment.vessel_ramp)
