@@ -91,6 +91,6 @@ def test_numbers_are_copied() -> None:
 
 
 def test_a_measurement_has_the_names_of_the_readings() -> None:
-    """In any order: in Python the rates come last, since they may be absent."""
-    declared = [*TipReadings.fields, *MotorReadings.fields, *WinchReadings.fields]
+    """In any order: in Python the rates come last, since they may be absent, and the rope's second direction."""
+    declared = [*TipReadings.fields, *MotorReadings.fields, *WinchReadings.fields, "across"]
     assert sorted(field.name for field in fields(Measurement)) == sorted(declared)

@@ -106,7 +106,7 @@ class Recorded:
 
     def update(self, t: float, measurement: Measurement, state: Any) -> tuple[Command, Any]:
         command, state = self._controller.update(t, measurement, state)
-        memory, decision = state
+        memory, decision, _ = state
         outer, motors = decision.outer.view(np.float64), decision.motors.view(np.float64)
         self.seen.append(np.concatenate([outer, motors, memory.kappa]))
         return command, state

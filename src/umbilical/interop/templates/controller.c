@@ -268,7 +268,10 @@ static void update_outer(umb_state *state, const umb_readings *readings)
         out->thrust_command = pd_thrust(s->gains[0], s->gains[1], tip->tip_displacement, velocity);
     } else {
         const double error = boundary_error(s->gains[1], velocity, tip->tip_slope);
-        const double pull = tension(0.0, s->gravity - readings->winch.payout_acceleration, &s->hanging);
+        const double measured = readings->winch.tip_tension;
+        const double pull = (measured != 0.0)
+            ? measured
+            : tension(0.0, s->gravity - readings->winch.payout_acceleration, &s->hanging);
         const double known = (pull * tip->tip_slope) + (s->payload_damping * velocity);
         double estimate;
         if (advance != 0) {
