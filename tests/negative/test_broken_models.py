@@ -66,6 +66,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "energy for amplitude": (broken_sea.energy_for_amplitude, ("sea, wave spectra",)),
     "degrees for radians": (broken_sea.degrees_for_radians, ("sea, screening",)),
     "lead for lag": (broken_sea.lead_for_lag, ("sea, vessel*",)),
+    "a table of RAOs read with lead for lag": (broken_sea.table_read_with_lead_for_lag, ("sea, tables*",)),
+    "phases of RAOs in degrees": (broken_sea.table_read_in_degrees, ("sea, tables*",)),
     "the body's added mass forgotten": (broken_sea.added_mass_forgotten, ("sea, screening",)),
     "half the body in heave": (broken_sea.half_the_body, ("sea, cable*", "sea, screening")),
     "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from umbilical.screening import axial, operate, response
-from umbilical.sea import components, spectrum, vessel
+from umbilical.sea import components, rao, spectrum, vessel
 from umbilical.verify import sea
 
 
@@ -43,6 +43,25 @@ def lead_for_lag(patch: pytest.MonkeyPatch) -> None:
         return vessel.Motions(*(np.conj(part) for part in right(self, omega, heading)))
 
     patch.setattr(vessel.BoxVessel, "motions", wrong)
+
+
+def table_read_with_lead_for_lag(patch: pytest.MonkeyPatch) -> None:
+    """A table of RAOs whose phases are read the other way round."""
+    right = rao.rows_of
+    patch.setattr(rao, "rows_of", lambda ship, name: np.conj(right(ship, name)))
+    patch.setattr(rao, "_of_table", rao._of_table.__wrapped__)
+
+
+def table_read_in_degrees(patch: pytest.MonkeyPatch) -> None:
+    """A table of RAOs whose phases are taken for degrees."""
+    right = rao.rows_of
+
+    def wrong(ship: Any, name: str) -> np.ndarray:
+        rows = right(ship, name)
+        return abs(rows) * np.exp(1j * np.radians(np.angle(rows)))
+
+    patch.setattr(rao, "rows_of", wrong)
+    patch.setattr(rao, "_of_table", rao._of_table.__wrapped__)
 
 
 def added_mass_forgotten(patch: pytest.MonkeyPatch) -> None:

@@ -3,5 +3,6 @@
 from umbilical.columns.reading import Columns, read_columns
 from umbilical.columns.series import Choice, Series, series_of
 from umbilical.columns.units import factor
+from umbilical.columns.wide import Wanted, lists_of
 
-__all__ = ["Choice", "Columns", "Series", "factor", "read_columns", "series_of"]
+__all__ = ["Choice", "Columns", "Series", "Wanted", "factor", "lists_of", "read_columns", "series_of"]

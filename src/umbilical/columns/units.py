@@ -21,7 +21,7 @@ _KNOWN = {
     "N/m": {f"{force}/m": scale for force, scale in _FORCES.items()},
     "N m": {"N m": 1.0, "Nm": 1.0, "N*m": 1.0, "kN m": 1e3, "kNm": 1e3, "mNm": 1e-3},
     "V": {"V": 1.0, "mV": 1e-3, "kV": 1e3},
-    "1": {"1": 1.0, "-": 1.0, "m/m": 1.0, "%": 1e-2},
+    "1": {"1": 1.0, "-": 1.0, "m/m": 1.0, "deg/deg": 1.0, "rad/rad": 1.0, "%": 1e-2},
     "rad/s": {"rad/s": 1.0, "Hz": 2.0 * pi, "deg/s": pi / 180.0},
     "rad/m": {f"{angle}/m": scale for angle, scale in _ANGLES.items()},
 }

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from umbilical import files
 from umbilical.columns import Choice, read_columns, series_of
 from umbilical.errors import FileError, Problem
+from umbilical.library.rao_file import rao_lists
 from umbilical.scenario.base import Record
 from umbilical.scenario.document import Data, freeze
 from umbilical.scenario.fields import element, records, tag, word
@@ -22,12 +23,13 @@ from umbilical.scenario.source import FromFile
 
 
 class Filled(NamedTuple):
-    """A table of a document that a file can fill: its key, its data, names of its two lists, and their units."""
+    """A table of a document that a file can fill: its key, its data, the lists it must have, and how it is read."""
 
     key: str
     table: dict[str, Any]
-    lists: tuple[str, str]
+    lists: tuple[str, ...]
     units: tuple[str, str]
+    reader: str
 
 
 def read_files(data: Data, folder: Path, record: type[Record] = Scenario) -> list[Problem]:
@@ -79,8 +81,8 @@ def _filled_from_files(data: Any, annotation: Any, key: str, unit: str) -> Itera
     field = kind.model_fields.get("file")
     extra: Any = field.json_schema_extra if field else None
     if extra and "file" in data:
-        units = extra["units"]
-        yield Filled(key, data, tuple(extra["fills"]), (units[0], units[1] or unit))
+        units = extra.get("units", ("", ""))
+        yield Filled(key, data, tuple(extra["fills"]), (units[0], units[1] or unit), extra.get("reader", "series"))
     for name, item in list(data.items()):
         if (inner := kind.model_fields.get(name)) is not None:
             there = f"{key}.{name}" if key else name
@@ -99,7 +101,7 @@ def _fill(filled: Filled, folder: Path) -> Iterator[Problem]:
     table, key = filled.table, f"{filled.key}.file"
     stated = {"name": table["file"]} if isinstance(table["file"], str) else table["file"]
     given = [name for name in filled.lists if name in table]
-    if isinstance(stated, dict) and stated.get("sha256") and len(given) == 2:
+    if isinstance(stated, dict) and stated.get("sha256") and len(given) == len(filled.lists):
         return
     if given:
         reason = "numbers come from the file or stand here"
@@ -123,6 +125,13 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
         cure = "save it as CSV or NetCDF" if there else "names are relative to the folder of the scenario"
         yield Problem(f"{key}.name", f'"{source.name}"', "a CSV or NetCDF file", str(error), cure)
         return
+    if filled.reader == "rao":
+        lists, problems = rao_lists(columns, key)
+        yield from problems
+        if not problems:
+            filled.table.update(lists)
+            _keep(filled, source, content)
+        return
     options = source.model_dump(exclude={"name", "sha256"}) | {"jumps": filled.table.get("interpolation") == "linear"}
     found = series_of(columns, Choice(**options, wanted_across=filled.units[0], wanted=filled.units[1]), key)
     if isinstance(found, list):
@@ -130,7 +139,12 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
         return
     for name, numbers in zip(filled.lists, found[:2], strict=True):
         filled.table[name] = numbers.tolist()
-    kept = source.model_copy(update={"start": found.start, "sha256": hashlib.sha256(content).hexdigest()})
+    _keep(filled, source.model_copy(update={"start": found.start}), content)
+
+
+def _keep(filled: Filled, source: FromFile, content: bytes) -> None:
+    """The file's record with its hash, in place of its name."""
+    kept = source.model_copy(update={"sha256": hashlib.sha256(content).hexdigest()})
     filled.table["file"] = kept.model_dump(exclude_none=True)
 
 

@@ -55,3 +55,12 @@ def words(name: str, reason: str = "", cure: str = "") -> Any:
     word = PARAMETERS[name]
     extra = {"unit": word.unit, "symbol": word.symbol, "source": word.source, "reason": reason, "cure": cure}
     return {"description": word.meaning, "json_schema_extra": extra}
+
+
+def measured(
+    unit: str, meaning: str, default: Any = ..., *, reason: str = "", cure: str = "", source: str = "", **bounds: float
+) -> Any:
+    """A field of a number with its unit, meaning and bounds (``gt``, ``ge``, ``lt``, ``le``)."""
+    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "cure": cure}
+    limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
+    return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from umbilical import files
 from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.library.recorded import consequences, forget, read_files
 from umbilical.plant.checks.weights import cable_in_water, payload_in_water
 from umbilical.scenario.document import freeze, read, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
+from umbilical.scenario.ship import RaoShip
 from umbilical.screening.axial import Bar
 from umbilical.screening.operation import Operation
+from umbilical.sea.rao_checks import table_problems
 
 _LARGEST_STRAIN = 0.1
 
@@ -39,11 +43,14 @@ def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] 
     """
     origin = os.fspath(source)
     changed, lost = try_override(OPERATIONS.extended(read(_text(origin), origin), origin), overrides or {})
+    forget(changed, overrides or {}, Operation)
+    unread = read_files(changed, Path() if origin in operation_names() else Path(origin).parent, Operation)
     try:
         operation = Operation.model_validate(freeze(changed))
     except ValidationError as error:
-        raise ScenarioError([*lost, *problems_of(error, Operation)], origin) from error
-    if found := [*lost, *problems_across(operation)]:
+        found = [*lost, *unread, *problems_of(error, Operation)]
+        raise ScenarioError(consequences(found, unread), origin) from error
+    if found := [*lost, *unread, *problems_across(operation)]:
         raise ScenarioError(found, origin)
     return operation
 
@@ -86,6 +93,8 @@ def problems_across(operation: Operation) -> list[Problem]:
         bound = f"at least {body.wet_weight / _LARGEST_STRAIN:g} N, a strain of {_LARGEST_STRAIN:.0%}"
         reason = f"the body alone would stretch the cable by {strain:.0%}"
         found.append(Problem("cable.axial_stiffness", value, bound, reason, "EA in newton: modulus times area"))
+    if isinstance(operation.vessel, RaoShip):
+        found += table_problems(operation.vessel, "vessel", operation.environment.gravity)
     return found
 
 

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.relations.tension import hanging_of, net_gravity, tension
+from umbilical.scenario.ship import RaoShip
 from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import FREQUENCIES, Spread, largest_rms, sheave_energy, spread
+from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread
+from umbilical.sea.rao_checks import told
 from umbilical.sea.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -93,6 +95,8 @@ class Operability:
             "linearised: keep 10 % below a limit until a simulation confirms it",
             "one wave direction at a time, no current; the cable stays straight and its length is held",
         ]
+        if isinstance(self.operation.vessel, RaoShip):
+            said += told(self.operation.vessel)
         if count := int(self.undamped.sum()):
             said.append(
                 f"{count} of {self.undamped.size} limits hang on the cable's own damping, which is 0 here: a loss "
@@ -204,13 +208,10 @@ def steepest_height(period: np.ndarray) -> np.ndarray:
 
 def _unit_seas(operation: Operation, period: np.ndarray, heading: np.ndarray) -> np.ndarray:
     """Spectra of the sheave's heave for Hs = 1 m, shape (frequencies, periods x headings)."""
-    gamma = operation.sea.peakedness
-    seas = [
-        sheave_energy(operation, Spectrum(1.0, float(tp), gamma).density(FREQUENCIES), float(beta))
-        for tp in period
-        for beta in heading
-    ]
-    return np.array(seas).T
+    seas = [Spectrum(1.0, float(tp), operation.sea.peakedness) for tp in period]
+    check_vessel(operation, seas, heading.tolist())
+    gains = [sheave_energy(operation, np.ones_like(FREQUENCIES), float(beta)) for beta in heading]
+    return np.array([sea.density(FREQUENCIES) * gain for sea in seas for gain in gains]).T
 
 
 def _limits_at(operation: Operation, criteria: tuple[Criterion, ...], bar: Bar, seas: np.ndarray) -> np.ndarray:

@@ -8,16 +8,8 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from umbilical.scenario.base import LARGEST, Record
-
-
-def measured(
-    unit: str, meaning: str, default: Any = ..., *, reason: str = "", cure: str = "", source: str = "", **bounds: float
-) -> Any:
-    """A field of a number with its unit, meaning and bounds (``gt``, ``ge``, ``lt``, ``le``)."""
-    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "cure": cure}
-    limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
-    return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]
+from umbilical.scenario.base import Record, measured
+from umbilical.scenario.ship import Ship
 
 
 class HangingCable(Record):
@@ -56,20 +48,6 @@ class HangingBody(Record):
         "N s2/m2", "drag in heave over the square of the speed", ge=0.0, le=1e7, reason="drag brakes",
         cure="1/2 rho_w C_d times the projected area",
     )  # fmt: skip
-
-
-class BoxShip(Record):
-    """A vessel by the closed form of Jensen, Mansour and Olsen, and where its sheave is."""
-
-    kind: Literal["box"] = "box"
-    length: float = measured("m", "length at the waterline", gt=0.0, le=500.0, reason="a ship")
-    breadth: float = measured("m", "breadth at the waterline", gt=0.0, le=100.0, reason="a ship")
-    draught: float = measured("m", "draught", gt=0.0, le=30.0, reason="a ship")
-    block_coefficient: float = measured(
-        "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9"
-    )
-    sheave_forward: float = measured("m", "sheave forward of midship", 0.0, ge=-500.0, le=500.0, reason="pitch")
-    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll")
 
 
 class HeaveCompensation(Record):
@@ -111,7 +89,7 @@ class Operation(Record):
     description: str = Field(default="", description="what is lowered from what")
     cable: HangingCable
     payload: HangingBody
-    vessel: BoxShip
+    vessel: Ship
     sea: SeaShape = SeaShape()
     compensation: HeaveCompensation | None = None
     environment: Water = Water()

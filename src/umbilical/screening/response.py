@@ -8,18 +8,22 @@ Extremes are those of a narrow-banded Gaussian process: a level is passed within
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 from scipy.special import erf
 
+from umbilical.errors import ScenarioError
 from umbilical.relations.tension import hanging_of, net_gravity, tension_gain
 from umbilical.screening.axial import axial_period, heave_transfer
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import HeaveCompensation, Operation
+from umbilical.sea.rao import RaoVessel, sheave_of, vessel_of
+from umbilical.sea.rao_checks import sea_problems
 from umbilical.sea.spectrum import Spectrum
-from umbilical.sea.vessel import BoxVessel, heave_of_point
+from umbilical.sea.vessel import motion_of_point
 
 FREQUENCIES = np.geomspace(0.1, 12.0, 1600)
 """rad/s; waves of 0.5 to 63 s."""
@@ -78,6 +82,7 @@ def respond(
     >>> round(float(found.top.rms), -1), round(found.slack_probability(3 * 3600.0), 4)
     (9160.0, 0.0053)
     """
+    check_vessel(operation, [spectrum], [heading])
     bar, drag = bar_of(operation, depth), operation.payload.quadratic_drag
     heave = sheave_energy(operation, spectrum.density(FREQUENCIES), heading)
 
@@ -99,10 +104,23 @@ def respond(
 
 def sheave_energy(operation: Operation, density: np.ndarray, heading: float) -> np.ndarray:
     """Spectral density of the sheave's heave after compensation, at :data:`FREQUENCIES`, m2 s/rad."""
-    ship = operation.vessel
-    vessel = BoxVessel(ship.length, ship.breadth, ship.draught, ship.block_coefficient, operation.environment.gravity)
-    heave = heave_of_point(vessel, FREQUENCIES, heading, ship.sheave_forward, ship.sheave_port)
+    vessel = vessel_of(operation.vessel, operation.environment.gravity)
+    heave = motion_of_point(vessel.motions(FREQUENCIES, heading), sheave_of(operation.vessel))[2]
     return density * abs(heave * residual(operation.compensation, FREQUENCIES)) ** 2
+
+
+def check_vessel(operation: Operation, seas: Iterable[Spectrum], headings: Iterable[float]) -> None:
+    """Refuse seas that a table of RAOs does not know.
+
+    Raises:
+        ScenarioError: with one problem of each kind.
+    """
+    vessel = vessel_of(operation.vessel, operation.environment.gravity)
+    if isinstance(vessel, RaoVessel):
+        asked = [(sea, heading) for sea in seas for heading in headings]
+        found = {p.key: p for sea, heading in asked for p in sea_problems(vessel, sea, heading)}
+        if found:
+            raise ScenarioError([*found.values()], operation.name)
 
 
 def residual(compensation: HeaveCompensation | None, omega: np.ndarray) -> np.ndarray:

@@ -13,11 +13,14 @@ import numpy as np
 
 
 class Motions(NamedTuple):
-    """Complex amplitudes at midship: heave in m/m, roll and pitch in rad/m, each of the shape of the frequencies."""
+    """Complex amplitudes at midship, each of the shape of the frequencies: m/m, and rotations in rad/m."""
 
+    surge: np.ndarray
+    sway: np.ndarray
     heave: np.ndarray
     roll: np.ndarray
     pitch: np.ndarray
+    yaw: np.ndarray
 
 
 class Vessel(Protocol):
@@ -42,18 +45,35 @@ def heave_of_point(vessel: Vessel, omega: np.ndarray, heading: float, forward: f
     >>> float(np.round(abs(long_waves[0]), 2))
     1.0
     """
-    m = vessel.motions(omega, heading)
-    return m.heave - forward * m.pitch + port * m.roll
+    return motion_of_point(vessel.motions(omega, heading), (forward, port, 0.0))[2]
+
+
+def motion_of_point(motions: Motions, point: tuple[float, float, float]) -> np.ndarray:
+    """Motion of a point of the vessel, forward, port and up, per metre of wave amplitude.
+
+    Args:
+        motions: at midship.
+        point: forward, port and up of midship at the waterline, m.
+
+    Returns:
+        Complex amplitudes, shape (3, frequencies): translation and the rotations' levers are added as complex numbers.
+    """
+    x, y, z = point
+    m = motions
+    forward, port = m.surge + m.pitch * z - m.yaw * y, m.sway + m.yaw * x - m.roll * z
+    return np.array([forward, port, m.heave - x * m.pitch + y * m.roll])
 
 
 @dataclass(frozen=True)
 class BoxVessel:
-    """The closed form of Jensen, Mansour and Olsen for a box at zero speed. It gives no roll.
+    """The closed form of Jensen, Mansour and Olsen for heave and pitch of a box at zero speed. It gives no roll or yaw.
 
     Source: Jensen, Mansour, Olsen, Estimation of ship motions using closed-form expressions, Ocean Eng. 31 (2004).
     It has no viscous damping: heave in beam seas near its resonance is too large (1.67 m/m at 8 s for the preset).
     In waves shorter than twice the breadth it tends to 0.5 in beam seas, where a ship hardly answers; there it is let
     fall with e^(-k T) (assumed). In bow and head seas that changes nothing that is seen.
+    Surge and sway are those of the water the box displaces, averaged over it (assumed: a body free to drift follows the
+    orbits of waves that are long against it).
 
     Attributes:
         length, breadth, draught: m.
@@ -68,7 +88,7 @@ class BoxVessel:
     gravity: float = 9.81
 
     def motions(self, omega: np.ndarray, heading: float) -> Motions:
-        """Heave and pitch in quadrature; see :class:`Vessel`."""
+        """Heave and pitch in quadrature, surge and sway as the water; see :class:`Vessel`."""
         k = np.asarray(omega, dtype=float) ** 2 / self.gravity
         along = k * abs(np.cos(heading))
         half = np.maximum(along * self.length / 2.0, 1e-4)  # the limits of both quotients at 0 within 1e-8
@@ -78,7 +98,14 @@ class BoxVessel:
         pitch = force * 6.0 / (self.length * half) * (np.sin(half) / half - np.cos(half))
         # The deck follows long waves: zeta(x) = e^{-i k x cos(heading)}, of which -x pitch is the linear part.
         turned = 1j * np.sign(np.cos(heading)) * np.where(along > 0.0, pitch, 0.0)
-        return Motions(heave + 0j, np.zeros_like(heave) + 0j, turned)
+        drift, none = -1j * self._orbit(k, heading), np.zeros_like(heave) + 0j
+        return Motions(drift * np.cos(heading), drift * np.sin(heading), heave + 0j, none, turned, none)
+
+    def _orbit(self, k: np.ndarray, heading: float) -> np.ndarray:
+        """Horizontal amplitude of the water's orbits, averaged over the box."""
+        deep = np.maximum(k * self.draught, 1e-9)
+        along, across = k * np.cos(heading) * self.length, k * np.sin(heading) * self.breadth
+        return -np.expm1(-deep) / deep * np.sinc(along / (2.0 * np.pi)) * np.sinc(across / (2.0 * np.pi))
 
     def _damped_force(self, k: np.ndarray) -> np.ndarray:
         return np.hypot(1.0 - k * self.draught, _radiated(k, self) ** 2 / (k * self._wide))

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from umbilical.scenario.ship import RaoShip
 from umbilical.screening import load_operation, operate, respond
 from umbilical.screening.axial import Bar, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.operation import HeaveCompensation
 from umbilical.screening.response import residual
-from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point
+from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point, motion_of_point, vessel_of
+from umbilical.sea.rao_checks import table_problems
 from umbilical.sea.spectrum import normalisation
 from umbilical.verify.cases import Case, Check, close, each_close, small
 from umbilical.verify.references import sea as reference
@@ -52,6 +54,27 @@ def long_waves() -> Iterator[Check]:
             deck = np.exp(-1j * k * (forward * np.cos(heading) + port * np.sin(heading)))
             found = heave_of_point(ship, omega, heading, forward, port)
             yield small(f"heave less elevation, {name}, {degrees:g} deg", abs(found - deck)[0], 5e-3, why)
+
+
+def response_tables() -> Iterator[Check]:
+    """The closed-form vessel through tables of RAOs in several conventions, and tables that must be refused."""
+    ship, omega = BoxVessel(93.0, 20.0, 6.6, 0.75), np.array([0.4, 0.7, 1.1])
+    why, point = "round-off", (10.0, -4.0, 8.0)
+    for name, convention in reference.CONVENTIONS.items():
+        table = RaoShip(**reference.rao_rows(ship, convention))
+        yield small(f"problems of the table, {name}", float(len([*table_problems(table)])), 0.0, "it is as declared")
+        for degrees in (0.0, 60.0, 225.0):
+            heading = np.radians(degrees)
+            found = motion_of_point(vessel_of(table, 9.81).motions(omega, heading), point)
+            exact = motion_of_point(ship.motions(omega, heading), point)
+            yield small(f"motion of a point, {name}, {degrees:g} deg, m/m", abs(found - exact).max(), 1e-8, why)
+    sound = reference.rao_rows(ship, reference.CONVENTIONS["lag, y to port"])
+    pitch = np.degrees(sound["pitch"]).tolist()
+    slips = {"lead for lag": {"phase": "lead"}, "from for towards": {"waves": "from"},
+             "z down for z up": {"axes": "starboard_down"}, "degrees for radians": {"pitch": tuple(pitch)}}  # fmt: skip
+    for name, slip in slips.items():
+        count = len([*table_problems(RaoShip(**sound | slip))])
+        yield close(f"refused, {name}", float(count > 0), 1.0, 0.0, "a slip that long waves show")
 
 
 def heaving_cable() -> Iterator[Check]:
@@ -101,6 +124,7 @@ CASES = (
     Case(
         "sea, vessel in long waves", "the elevation at the same point", "a floating body follows long waves", long_waves
     ),
+    Case("sea, tables of RAOs", "the closed form that the table was written from", TEXTBOOK, response_tables),
     Case("sea, cable in heave", "2000 masses on springs", TEXTBOOK, heaving_cable),
     Case("sea, screening", "600 masses, fixed-point iteration", "two earlier programs", screening),
     Case("sea, heave compensation", "closed forms", TEXTBOOK, compensation),

@@ -69,6 +69,44 @@ def ship_heave(omega: np.ndarray, heading: float, forward: float) -> np.ndarray:
     return np.sqrt(heave**2 + (forward * pitch) ** 2)
 
 
+CONVENTIONS: dict[str, dict[str, Any]] = {
+    "lag, y to port": {"phase": "lag", "axes": "port_up", "waves": "towards"},
+    "lead, y to starboard, from": {"phase": "lead", "axes": "starboard_down", "waves": "from"},
+    "per slope, origin and point elsewhere": {
+        "phase": "lead", "axes": "port_up", "waves": "towards", "rotations": "per_slope",
+        "phase_origin": (30.0, 5.0), "motion_point": (-12.0, 3.0, 4.0),
+    },
+}  # fmt: skip
+"""What makers of tables declare: how a row is to be read."""
+
+
+def rao_rows(ship: Any, convention: dict[str, Any]) -> dict[str, Any]:
+    """Rows of a table that says in a convention what ``ship.motions`` says; headings 0 to 180 degrees, 25 to 2.4 s."""
+    down, slope = convention["axes"] == "starboard_down", convention.get("rotations") == "per_slope"
+    rows: dict[str, list[float]] = {name: [] for name in ("heading", "frequency")}
+    for degrees in range(0, 181, 15):
+        for omega in [0.25, 0.32, 0.4, 0.5, 0.6, 0.7, 0.85, 1.1, 1.5, 2.0, 2.6]:
+            towards = degrees * np.pi / 180.0
+            surge, sway, heave, roll, pitch, yaw = (part[0] for part in ship.motions(np.array([omega]), towards))
+            x, y, z = convention.get("motion_point", (0.0, 0.0, 0.0))
+            there = {"surge": surge + pitch * z - yaw * y, "sway": sway + yaw * x - roll * z,
+                     "heave": heave + roll * y - pitch * x, "roll": roll, "pitch": pitch, "yaw": yaw}  # fmt: skip
+            number = omega**2 / GRAVITY
+            ahead, aside = convention.get("phase_origin", (0.0, 0.0))
+            crest = np.exp(-1j * number * (ahead * np.cos(towards) + aside * np.sin(towards)))
+            heading = towards - np.pi if convention["waves"] == "from" else towards
+            rows["heading"].append(-heading if down else heading)
+            rows["frequency"].append(omega)
+            for name, value in there.items():
+                turned = -value if down and name in ("sway", "heave", "pitch", "yaw") else value
+                turned = turned / crest / (number if slope and name in ("roll", "pitch", "yaw") else 1.0)
+                ahead_of_crest = float(np.angle(turned))
+                rows.setdefault(name, []).append(float(abs(turned)))
+                phase = ahead_of_crest if convention["phase"] == "lead" else -ahead_of_crest
+                rows.setdefault(f"{name}_phase", []).append(phase)
+    return {"kind": "rao", **convention, **{name: tuple(values) for name, values in rows.items()}}
+
+
 def work_class_statistics(height: float, depth: float, heading: float) -> dict[str, float]:
     """Rms of tension and body, and the probability of slack in three hours, Tp 8 s; drag by fixed-point iteration."""
     omega = np.arange(0.2, 4.0, 0.002)
