@@ -41,5 +41,11 @@ def test_the_readme_shows_the_first_example():
     assert f"```python\n{body}\n```" in (ROOT / "README.md").read_text()
 
 
+@pytest.mark.slow
+def test_learning_with_stable_baselines3(play):
+    pytest.importorskip("stable_baselines3", reason="stable-baselines3 is not installed; it brings torch")
+    assert "boundary law: return -" in play(ROOT / "examples" / "learn_with_sb3.py")
+
+
 def test_no_example_is_left_out():
-    assert {example.name for example in EXAMPLES} == {"first_run.py", "own_controller.py"}
+    assert {example.name for example in EXAMPLES} == {"first_run.py", "own_controller.py", "learn_with_sb3.py"}

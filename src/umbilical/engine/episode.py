@@ -11,7 +11,7 @@ import numpy as np
 from umbilical.control.contract import Command, Measurement
 from umbilical.engine import loop
 from umbilical.engine.ending import Ending
-from umbilical.engine.model import make_model
+from umbilical.engine.model import Model, make_model
 from umbilical.engine.schedule import end_of_stretch, stretch
 from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.library import admit
@@ -93,6 +93,11 @@ class Episode:
     def over(self) -> bool:
         """Whether the end of the run is reached, or the model has ended: no step can follow."""
         return self._ending is not None or self._update == self._model.clock.periods
+
+    @property
+    def model(self) -> Model:
+        """The model behind it, for :func:`umbilical.engine.truth.truth`."""
+        return self._model
 
     @property
     def status(self) -> Status | None:

@@ -106,6 +106,7 @@ class StringModel:
         self._scenario, self._setup = scenario, set_up(scenario, stored=stored, kernel=kernel)
         self._outside, self._held = Outside(scenario), cascade.with_known_factors(self._setup.settings)
         self.clock, self.every = self._setup.clock, self._setup.record.every
+        self.state = self._setup.world.state
 
     def sample(self, part: Stretch) -> Any:
         inputs = self._outside.sample(part.steps)
