@@ -5,9 +5,9 @@ learn anything; what it shows is how the pieces meet.
 """
 
 import gymnasium
-from stable_baselines3 import PPO
-from stable_baselines3.common.env_checker import check_env
-from stable_baselines3.common.monitor import Monitor
+from stable_baselines3 import PPO  # pyright: ignore[reportMissingImports]
+from stable_baselines3.common.env_checker import check_env  # pyright: ignore[reportMissingImports]
+from stable_baselines3.common.monitor import Monitor  # pyright: ignore[reportMissingImports]
 
 import umbilical
 from umbilical.interop.policies import Nothing, OuterLaw, play
