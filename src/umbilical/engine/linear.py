@@ -137,7 +137,7 @@ def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
 
 def _stopped(scenario: Scenario, time: float) -> Scenario:
     """The scenario with its winch stopped and nothing that acts from outside."""
-    quiet = {"payload_force": [], "cable_load": [], "vessel_motion": []}
+    quiet = {"payload_force": [], "cable_load": [], "vessel_motion": [], "sea": None}
     return scenario.replace(
         {
             "winch": {"law": "constant", "length": float(top_at(scenario.winch, time).length)},

@@ -12,7 +12,7 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, rope, sizes, statics, steps, timeline, weights
+from umbilical.plant.checks import equipment, motion, rope, seas, sizes, statics, steps, timeline, weights
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -40,7 +40,11 @@ CHECKS: tuple[Check, ...] = (
     statics.static_slope,
     motion.vessel_is_continuous,
     motion.vessel_moves_like_one,
-    motion.vessel_moves_like_one,
+    seas.systems,
+    seas.vessel,
+    seas.repetition,
+    seas.heave_has_its_model,
+    seas.regular_waves,
     motion.vessel_at_the_start,
     equipment.motors_are_there,
     equipment.thrust_coefficients,

@@ -148,7 +148,7 @@ class Outside:
         rows = _kept(_winch_at, steps)(self._scenario.winch, environment.gravity, steps)
         for name, row in zip(WINCH, rows, strict=True):
             inputs.world[name].T[:] = row[:2]
-        if environment.vessel_motion:
+        if environment.vessel_motion or environment.sea:
             motion = [inputs.world["vessel_displacement"].T, inputs.world["vessel_velocity"].T]
             _fill(motion, lambda t, side: vessel_at(environment, t, side), steps, middle=False)
         _fill_signal(inputs.world["payload_force"].T, environment.payload_force, steps, middle=False)

@@ -13,9 +13,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from umbilical.plant import regular, seaway
 from umbilical.relations.instants import slack
 from umbilical.scenario.environment import Environment
-from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term
+from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term, Waves
 
 Array = NDArray[np.float64]
 Side = Literal["left", "right"]
@@ -98,7 +99,7 @@ def vessel(environment: Environment, t: ArrayLike, side: Side = "right") -> tupl
     [[0.0, 1.0, 2.0], [0.0, 0.9375, 0.0]]
     """
     instants = np.asarray(t, dtype=np.float64)
-    motion, ramp = environment.vessel_motion, environment.vessel_ramp
+    motion, ramp = seaway.along(environment), environment.vessel_ramp
     if not motion:
         return np.zeros(instants.shape), np.zeros(instants.shape)
     displacement, velocity = evaluate(motion, instants, side), derivative(motion, instants, side)
@@ -170,7 +171,12 @@ def _(term: Pulse, t: Array, side: Side) -> _Part:
 def _(term: Table, t: Array, side: Side) -> _Part:
     if term.interpolation == "linear":
         return _linear(term, t, side)
-    return _curve(term)(t)
+    return curve_of(term)(t)
+
+
+@_value.register
+def _(term: Waves, t: Array, side: Side) -> _Part:
+    return regular.waves(term, t)
 
 
 @singledispatch
@@ -198,15 +204,21 @@ def _square(t: Array, term: Bell) -> Array:
 
 
 @_slope.register
+def _(term: Waves, t: Array, side: Side) -> _Part:
+    return regular.waves(term, t, 1)
+
+
+@_slope.register
 def _(term: Table, t: Array, side: Side) -> _Part:
     if term.interpolation != "linear":
-        return _curve(term)(t, 1)
+        return curve_of(term)(t, 1)
     steps = np.diff(term.times)
     slopes = np.concatenate([[0.0], np.diff(term.values) / np.where(steps > 0.0, steps, 1.0), [0.0]])
     return slopes[passed(term.times, t, side)]
 
 
-def _curve(term: Table) -> Any:
+def curve_of(term: Table) -> Any:
+    """The smooth or monotone curve of a table."""
     return spline(term.times, term.values) if term.interpolation == "smooth" else _monotone(term.times, term.values)
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
+from umbilical.scenario.sea import SeaState
 from umbilical.scenario.signals import Signal
 from umbilical.scenario.source import FromFile, from_file
 
@@ -62,6 +63,7 @@ class Environment(Record):
     vessel_motion: Signal = Field(
         default=(), description="transverse motion of the vessel e(t)", json_schema_extra={"unit": "m"}
     )
+    sea: SeaState | None = Field(default=None, description="waves that move the vessel besides")
     vessel_ramp: float = quantity(
         "vessel_ramp",
         0.0,

@@ -71,6 +71,15 @@ class Table(Record):
     file: FromFile | None = from_file("times", "values")
 
 
-Term = Annotated[Constant | Sine | Bell | Step | Pulse | Table, Field(discriminator="kind")]
+class Waves(Record):
+    """A sum of regular waves ``amplitude * cos(frequency * t + phase)``: what a sea is, as numbers."""
+
+    kind: Literal["waves"]
+    frequencies: tuple[Number, ...] = Field(min_length=1, description="of each wave, rad/s, at most 30")
+    amplitudes: tuple[Number, ...] = Field(min_length=1, description="of each wave")
+    phases: tuple[Number, ...] = Field(min_length=1, description="of each wave, rad")
+
+
+Term = Annotated[Constant | Sine | Bell | Step | Pulse | Table | Waves, Field(discriminator="kind")]
 Signal = tuple[Term, ...]
 """A sum of terms; empty means zero."""

@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.plant.signals import spline
+from umbilical.plant.seaway import along
+from umbilical.plant.signals import curve_of
 from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
-from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term
+from umbilical.scenario.signals import Bell, Constant, Pulse, Signal, Sine, Step, Table, Term, Waves
 
 _FADE_SLOPE = 1.875  # steepest slope of the quintic fade, at its middle
 
@@ -45,11 +46,11 @@ def loads_of(environment: Environment, longest: float) -> Loads:
         environment: forces and vessel.
         longest: greatest length of the cable in the run, m.
     """
-    motion = environment.vessel_motion
+    motion = along(environment)
     velocity = rate(motion) + (_FADE_SLOPE * size(motion) / environment.vessel_ramp if environment.vessel_ramp else 0.0)
-    along = sum(size(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
+    of_cable = sum(size(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
     force = environment.payload_force
-    return Loads(size(force), rate(force), jumps(force), longest * along**2, size(motion), velocity)
+    return Loads(size(force), rate(force), jumps(force), longest * of_cable**2, size(motion), velocity)
 
 
 def size(signal: Signal) -> float:
@@ -74,6 +75,8 @@ def jumps(signal: Signal) -> tuple[tuple[float, float], ...]:
         for name in instants:
             t = getattr(term, name)
             found[t] = found.get(t, 0.0) + abs(getattr(term, "value", 0.0))
+        for t, step in _doubled(term):
+            found[t] = found.get(t, 0.0) + step
     return tuple(sorted(found.items()))
 
 
@@ -109,6 +112,11 @@ def _(term: Sine | Bell) -> float:
 
 
 @_size.register
+def _(term: Waves) -> float:
+    return sum(map(abs, term.amplitudes))
+
+
+@_size.register
 def _(term: Table) -> float:
     return float(np.abs(_extremes(term, 0)).max()) if term.interpolation == "smooth" else max(map(abs, term.values))
 
@@ -136,12 +144,26 @@ def _(term: Bell) -> float:
 @_rate.register
 def _(term: Table) -> float:
     if term.interpolation == "linear":
-        return float(np.abs(np.diff(term.values) / np.diff(term.times)).max())
+        steps = np.diff(term.times)
+        return float(np.abs(np.diff(term.values)[steps > 0.0] / steps[steps > 0.0]).max())
     return float(np.abs(_extremes(term, 1)).max())
+
+
+@_rate.register
+def _(term: Waves) -> float:
+    return float(np.abs(np.array(term.amplitudes) * np.array(term.frequencies)).sum())
+
+
+def _doubled(term: Term) -> list[tuple[float, float]]:
+    """Instants that stand twice in a linear table, and how far it jumps there."""
+    if not isinstance(term, Table):
+        return []
+    places = np.flatnonzero(np.diff(term.times) == 0.0).tolist()
+    return [(term.times[k], abs(term.values[k + 1] - term.values[k])) for k in places]
 
 
 def _extremes(term: Table, order: int) -> np.ndarray:
     """Values of a spline's derivative at its knots and wherever that derivative is stationary."""
-    curve = spline(term.times, term.values)
+    curve = curve_of(term)
     stationary = curve.derivative(order + 1).roots(extrapolate=False)
     return curve(np.append(stationary[np.isfinite(stationary)], term.times), order)

@@ -11,6 +11,7 @@ import numpy as np
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
+from umbilical.plant.checks import seas
 from umbilical.plant.checks.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.plant.signals import table_jumps
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
@@ -170,6 +171,8 @@ def vessel_at_the_start(
 ) -> Iterator[Finding]:
     """The cable hangs on the vessel at t = 0 and is at rest there."""
     if any(True for _ in signals_of_the_environment(environment, duration)) or not sampled_winch(winch, duration):
+        return
+    if any(isinstance(finding, Problem) for finding in seas.systems(environment)):
         return
     displacement, velocity = (part.item() for part in vessel_at(environment, 0.0))
     end, size = _upper_end(initial, top_at(winch, 0.0).length.item())

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from umbilical.plant import signals
 from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps
 from umbilical.plant.rope.records import STAGES, RopeOutside, Water
+from umbilical.plant.seaway import sheave
 from umbilical.plant.signals import Array, Side
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.scenario.rope import Rope, Sea
@@ -54,9 +55,10 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
     """Place, m, and velocity, m/s, of the sheave at instants of any shape: shape (..., 3)."""
     instants, rope, environment = np.asarray(t, dtype=float), scenario.rope or Rope(), scenario.environment
     along = vessel_at(environment, instants, side)
+    waves = sheave(environment)
     others = [
-        vessel_at(environment.model_copy(update={"vessel_motion": signal}), instants, side)
-        for signal in (rope.vessel_across, rope.vessel_heave)
+        vessel_at(environment.model_copy(update={"vessel_motion": signal, "sea": None}), instants, side)
+        for signal in (rope.vessel_across + waves.across, rope.vessel_heave + waves.up)
     ]
     place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
     if rope.sea is not None:

@@ -1,0 +1,103 @@
+"""Checks of a sea state: its periods, its steepness, what the vessel's table knows of it, and what it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from umbilical.errors import Problem
+from umbilical.plant.seaway import directions_of, sheave, spectrum_of, waves_of
+from umbilical.scenario.environment import Environment
+from umbilical.scenario.findings import Finding, Notice, amount
+from umbilical.scenario.ship import RaoShip
+from umbilical.scenario.signals import Waves
+from umbilical.sea.rao import RaoVessel, vessel_of
+from umbilical.sea.rao_checks import sea_problems, table_problems, told
+
+STEEPEST = 1.0 / 7.0
+"""Hs over the deep-water wavelength of the peak period."""
+_PERIODS = ("peak_period", "zero_crossing_period", "mean_period")
+_FASTEST_WAVE = 30.0
+
+
+def systems(environment: Environment) -> Iterator[Finding]:
+    """Each system has one period, and is no steeper than seas are."""
+    if (sea := environment.sea) is None:
+        return
+    for number, system in enumerate(sea.systems, start=1):
+        key = f"environment.sea.systems.{number}"
+        given = [name for name in _PERIODS if getattr(system, name) is not None]
+        if len(given) != 1:
+            told = " and ".join(given) or "no period"
+            reason = "each of them sets the spectrum's scale in time"
+            yield Problem(key, told, f"exactly one of {', '.join(_PERIODS)}", reason, "leave one")
+            continue
+        peak = spectrum_of(system).peak_period
+        if not 2.0 <= peak <= 30.0:
+            yield Problem(f"{key}.{given[0]}", f"a peak period of {amount(peak, 's')}", "from 2 to 30 s",
+                          "shorter waves are ripples, longer ones tides", "seconds, and the right one")  # fmt: skip
+        length = environment.gravity * peak**2 / (2.0 * np.pi)
+        if system.significant_height > STEEPEST * length:
+            yield Problem(f"{key}.significant_height", amount(system.significant_height, "m"),
+                          f"at most {STEEPEST * length:.4g} m, a seventh of the wavelength at the peak",
+                          "steeper seas do not exist", "a longer period, or metres for feet")  # fmt: skip
+
+
+def vessel(environment: Environment) -> Iterator[Finding]:
+    """A table of RAOs is as declared and knows the sea; what it leaves out is told."""
+    if (sea := environment.sea) is None or not _sound(environment):
+        return
+    if not isinstance(sea.vessel, RaoShip):
+        yield Notice("environment.sea.vessel", "surge and sway of the closed form are those of the water (assumed)")
+        return
+    key = "environment.sea.vessel"
+    problems = [*table_problems(sea.vessel, key, environment.gravity)]
+    yield from problems
+    table = vessel_of(sea.vessel, environment.gravity) if not problems else None
+    if isinstance(table, RaoVessel):
+        asked = [(system, heading) for system in sea.systems for heading in directions_of(system).tolist()]
+        found = {p.key: p for s, heading in asked for p in sea_problems(table, spectrum_of(s), heading, key)}
+        yield from found.values()
+        yield from (Notice(key, words) for words in told(sea.vessel))
+
+
+def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
+    """A run that is longer than its waves take to be back in phase repeats itself."""
+    if (sea := environment.sea) is None or not _sound(environment) or not (waves := waves_of(sea)):
+        return
+    longest = max(components.repeat_period for _, components in waves)
+    if duration > longest:
+        need = int(np.ceil(max(system.components for system in sea.systems) * duration / longest))
+        yield Notice(
+            "environment.sea.systems",
+            f"the waves repeat themselves after about {longest:.0f} s, and the run takes {duration:g} s; some {need} "
+            "components do not",
+        )
+
+
+def heave_has_its_model(environment: Environment, model: str) -> Iterator[Finding]:
+    """The string of this version does not heave: what that leaves out is told."""
+    if environment.sea is not None and model != "rope" and _sound(environment) and sheave(environment).up:
+        yield Notice(
+            "environment.sea", 'the sheave\'s heave is left out: the string does not know it (model = "rope" does)'
+        )
+
+
+def regular_waves(environment: Environment) -> Iterator[Finding]:
+    """Waves given as numbers: equally many of each, and none too fast to be a wave."""
+    for number, term in enumerate(environment.vessel_motion, start=1):
+        if isinstance(term, Waves):
+            key = f"environment.vessel_motion.{number}"
+            counts = {len(term.frequencies), len(term.amplitudes), len(term.phases)}
+            if len(counts) > 1:
+                yield Problem(f"{key}.amplitudes", f"{sorted(counts)} entries", "equally many", "a wave has all three",
+                              "complete the lists")  # fmt: skip
+            if max(term.frequencies) > _FASTEST_WAVE:
+                yield Problem(f"{key}.frequencies", amount(max(term.frequencies), "rad/s"),
+                              f"at most {_FASTEST_WAVE:g} rad/s",
+                              "they are tabulated every 0.1 s", "sine terms for what is faster")  # fmt: skip
+
+
+def _sound(environment: Environment) -> bool:
+    return not any(isinstance(finding, Problem) for finding in systems(environment))
