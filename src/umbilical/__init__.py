@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         plot_study,
         plot_tip,
     )
+    from umbilical.report.player import show
     from umbilical.run import Run, Status, open_run
     from umbilical.scenario import Scenario
     from umbilical.screening import load_operation, lower, operate
@@ -85,6 +86,7 @@ _HOMES = {
     "plot_study": "umbilical.plots",
     "plot_tip": "umbilical.plots",
     "preset_names": "umbilical.library",
+    "show": "umbilical.report.player",
     "simulate": "umbilical.engine.simulate",
     "sweep": "umbilical.studies.sweep",
     "to_c": "umbilical.interop.c_code",
@@ -127,6 +129,7 @@ __all__ = [
     "plot_study",
     "plot_tip",
     "preset_names",
+    "show",
     "simulate",
     "sweep",
     "to_c",

@@ -44,6 +44,7 @@ NAMES = {
     "plot_study",
     "plot_tip",
     "preset_names",
+    "show",
     "simulate",
     "sweep",
     "to_c",

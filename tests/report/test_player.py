@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import html
 import json
 import re
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import umbilical
 from tests.support import browser
 from umbilical import Run, load, simulate
 from umbilical.report import player as page
@@ -82,6 +84,68 @@ def test_a_run_without_samples_is_refused(free: Run) -> None:
         page.player(nothing)
 
 
+SLACK = {
+    "model": "rope", "duration": 6.0, "output.interval": 0.02, "payload.wet_weight": 1000.0,
+    "cable.wet_line_density": 0.5, "winch": {"law": "constant", "length": 100.0}, "control.law": {"kind": "none"},
+    "rope": {
+        "elements": 4, "axial_stiffness": 1e6, "diameter": 0.03, "body_drag": [400.0, 400.0, 600.0],
+        "current": [{"height": 0.0, "x": 0.5, "y": 0.3}],
+        "vessel_heave": [{"kind": "sine", "amplitude": 2.0, "frequency": 1.2}],
+    },
+}  # fmt: skip
+"""A vessel heaves more than a light body can follow."""
+
+
+@pytest.fixture(scope="module")
+def slack() -> Run:
+    return simulate(load("paper", SLACK))
+
+
+def shorts(text: str, nodes: int) -> np.ndarray:
+    return np.frombuffer(base64.b64decode(text), "<i2").reshape(-1, nodes)
+
+
+def test_a_rope_is_seen_from_two_sides_with_its_tension(slack: Run) -> None:
+    text = page.player(slack)
+    (reel,), nodes = film(text)["runs"], film(text)["runs"][0]["nodes"]
+    time, last = floats(reel["time"]), slack["body_position"].values[-1]
+    assert film(text)["views"] == 2
+    assert time[-1] == pytest.approx(6.0)
+    shown = [shorts(reel[key], nodes)[-1, -1] * reel[step] for key, step in
+             (("y", "step"), ("across", "step"), ("z", "depth_step"))]  # fmt: skip
+    assert shown == pytest.approx(last.tolist(), abs=1e-2)
+    pull = shorts(reel["pull"], nodes) * reel["pull_step"]
+    assert pull[:, -1] == pytest.approx(
+        np.maximum(slack["tension"].sel(time=time, method="nearest")[:, -1], 0.0), abs=1.0
+    )
+    assert [panel["title"] for panel in reel["panels"]][:2] == ["ROV position [m]", "tension [N]"]
+    assert len(text) < 1_000_000
+
+
+def test_slack_and_snaps_are_events(slack: Run) -> None:
+    assert slack.metrics["snaps"] >= 1
+    events = film(page.player(slack))["events"]
+    assert {event["text"] for event in events} == {"the cable goes slack", "the cable is taut again: snap"}
+    for event in events:
+        later = float(slack["slack_length"].sel(time=event["time"], method="nearest"))
+        assert (later > 0.0) is event["quiet"]
+
+
+def test_a_rope_and_a_string_share_a_page(slack: Run, free: Run) -> None:
+    assert film(page.player(free))["views"] == 1
+    assert film(page.player(free, slack))["views"] == 2
+
+
+def test_a_run_shows_itself_in_a_notebook(run: Run, free: Run) -> None:
+    shown = umbilical.show(run, free)
+    assert repr(shown).startswith("<plays paper-stuck and crosscheck-none: ")
+    frame = shown._repr_html_()
+    assert frame.startswith('<iframe sandbox="allow-scripts"')
+    found = re.search(r'srcdoc="([^"]*)"', frame)
+    assert found
+    assert html.unescape(found[1]) == page.player(run, free)
+
+
 @pytest.mark.slow
 @pytest.mark.browser
 @pytest.mark.skipif(browser.PROGRAM is None, reason="no Chromium on this machine")
@@ -106,3 +170,19 @@ class TestInABrowser:
         )
         stored.write_text(stored.read_text(encoding="utf-8").replace("</body>", f"{script}</body>"), encoding="utf-8")
         assert "<title>played 1.5 s, 1 before the end</title>" in browser.dump(stored)
+
+    def test_a_rope_plays_and_says_that_it_is_slack(self, slack: Run, tmp_path: Path) -> None:
+        path = tmp_path / "rope.html"
+        path.write_text(page.player(slack), encoding="utf-8")
+        assert browser.console(path) == []
+        assert browser.width(path, 420) <= 420
+        time = float(slack["time"].values[int(np.argmax(slack["slack_length"].values))])
+        words = (
+            "<script>const said = []; CanvasRenderingContext2D.prototype.fillText = word => said.push(word);"
+            "set(false);"
+            f"go(0); const before = said.includes('slack'); go([...time].findIndex(v => v >= {time}));"
+            "const two = said.includes('y and depth'); document.title = `${before} then ${said.includes('slack')}, ${two}`;"
+            "</script>"
+        )
+        path.write_text(path.read_text(encoding="utf-8").replace("</body>", f"{words}</body>"), encoding="utf-8")
+        assert "<title>false then true, true</title>" in browser.dump(path)

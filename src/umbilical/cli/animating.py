@@ -16,11 +16,12 @@ def animate(
     compare: Annotated[
         Path | None, Option("--compare", metavar="FILE", help="Another result, on the same clock.")
     ] = None,
-    out: Annotated[Path | None, Option("--out", metavar="FILE", help="An .html file.")] = None,
+    out: Annotated[Path | None, Option("--out", "-o", metavar="FILE", help="An .html file.")] = None,
     force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Write one HTML file that plays a run in any browser, without network.
 
+    A string is seen in its plane; a rope from two sides, with its tension, where it is slack and when it snaps taut.
     Without --out the page lies beside the result.
 
     \b
