@@ -181,7 +181,8 @@ class TestInABrowser:
             "<script>const said = []; CanvasRenderingContext2D.prototype.fillText = word => said.push(word);"
             "set(false);"
             f"go(0); const before = said.includes('slack'); go([...time].findIndex(v => v >= {time}));"
-            "const two = said.includes('y and depth'); document.title = `${before} then ${said.includes('slack')}, ${two}`;"
+            "const two = said.includes('y and depth');"
+            "document.title = `${before} then ${said.includes('slack')}, ${two}`;"
             "</script>"
         )
         path.write_text(path.read_text(encoding="utf-8").replace("</body>", f"{words}</body>"), encoding="utf-8")
