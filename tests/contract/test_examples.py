@@ -48,4 +48,6 @@ def test_learning_with_stable_baselines3(play):
 
 
 def test_no_example_is_left_out():
-    assert {example.name for example in EXAMPLES} == {"first_run.py", "own_controller.py", "learn_with_sb3.py"}
+    """Of plant_fmu.py an FMU is built: tests/interop/test_plant_fmu.py."""
+    names = {example.name for example in EXAMPLES}
+    assert names == {"first_run.py", "own_controller.py", "learn_with_sb3.py", "plant_fmu.py"}
