@@ -42,6 +42,7 @@ class Plant(Fmi3Slave, CoSimulation):
         periods = round(step_size / SCENARIO.control.period)
         if periods < 1 or abs(periods * SCENARIO.control.period - step_size) > 1e-9:
             raise ValueError(f"a step of {step_size} s is no whole number of periods of {SCENARIO.control.period} s")
+        assert self.episode is not None  # a simulator initializes first
         for _ in range(periods):
             voltage = np.array([getattr(self, f"motor_voltage_{i}") for i in MOTORS])
             self.show(self.episode.step(umbilical.Command(voltage=voltage)))
