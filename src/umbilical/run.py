@@ -158,7 +158,8 @@ class Run:
             "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows()
         )
         notes = "".join(f"<p>{html.escape(notice)}</p>" for notice in self.notices)
-        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>{notes}"
+        plays = "<p><code>umbilical.show(run)</code> plays it.</p>" if self["time"].size > 1 else ""
+        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>{notes}{plays}"
 
     def summary(self) -> str:
         """How it ended and every metric, as an aligned table of text."""

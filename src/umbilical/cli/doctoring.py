@@ -14,7 +14,7 @@ from umbilical.cli.options import Json
 from umbilical.cli.speech import say, say_json, table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
-PARTNERS = ("control", "distributed", "SALib", "optuna", "moordyn")
+PARTNERS = ("control", "distributed", "SALib", "optuna", "moordyn", "fmpy", "gymnasium")
 
 
 def doctor(

@@ -154,7 +154,7 @@ def _words(scenario: Scenario, settings: CascadeSettings, hold: float | None) ->
         "HOLD_WORDS": f"{held * period:g} s",
         "HOLD_ORIGIN": f"UMB_HOLD = {held} updates is {origin}.",
         "IDEAL_WORDS": "" if ideal else " /* tip_velocity and tip_slope_rate are not used by this one */",
-        "SUMMARY": f"{comment(scenario.name)}, {scenario.hash}\n{law}, {motors} motors.",
+        "SUMMARY": f"{comment(scenario.name)}, {scenario.hash}\n{law}, {motors} motor{'s' * (motors != 1)}.",
         "OUTPUT": "state.decision." + ("motors[i].motor_voltage" if settings.motors.driven else "outer.thrust_command"),
         "UPDATES": str(UPDATES),
     }

@@ -14,6 +14,7 @@ KNOWN: dict[str, frozenset[str]] = {
     for name, keys in {
         "Control": "period outer_period law velocity_observer slope_observer disturbance_observer allocation motor_loop"
         " nominal",
+        "NoControl": "kind",
         "ProportionalDerivative": "kind position_gain velocity_gain velocity",
         "BoundaryLaw": "kind damping_gain slope_gain rates",
         "HighGainObserver": "time_constant damping",
