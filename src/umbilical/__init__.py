@@ -38,6 +38,7 @@ if TYPE_CHECKING:
         plot_positions,
         plot_study,
         plot_tip,
+        plot_weather,
     )
     from umbilical.report.player import show
     from umbilical.run import Run, Status, open_run
@@ -85,6 +86,7 @@ _HOMES = {
     "plot_positions": "umbilical.plots",
     "plot_study": "umbilical.plots",
     "plot_tip": "umbilical.plots",
+    "plot_weather": "umbilical.plots",
     "preset_names": "umbilical.library",
     "show": "umbilical.report.player",
     "simulate": "umbilical.engine.simulate",
@@ -128,6 +130,7 @@ __all__ = [
     "plot_positions",
     "plot_study",
     "plot_tip",
+    "plot_weather",
     "preset_names",
     "show",
     "simulate",

@@ -36,6 +36,11 @@ def operate(
         float | None,
         Option("--height", metavar="HS", help="Is this Hs workable everywhere? If not, exit 7."),
     ] = None,
+    seas: Annotated[
+        Path | None,
+        Option("--seas", metavar="FILE", help="Scatter table or hindcast (.csv, .nc) in place of --period."),
+    ] = None,
+    needed: Annotated[float, Option("--needed", metavar="H", help="With a hindcast: hours the operation takes.")] = 3.0,
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE", help="Store the limits: .nc.")] = None,
     plot: Plot = None,
@@ -50,6 +55,7 @@ def operate(
       umbilical operate work-class --depth 3000 --period 8 --heading 135 --height 2.5
       umbilical operate work-class --criterion slack=1e-2/3h --criterion top_tension:250e3=1e-2/3h
       umbilical operate work-class --set compensation.lag=0.05 --set compensation.bandwidth=6
+      umbilical operate work-class --depth 3000 --seas hindcast.csv --needed 6 --plot windows.png
 
     No time is integrated: heave of the vessel, elastic cable and body are linear, the body's drag is linearised for
     each sea. The exit code is 7 when --height is not workable somewhere.
@@ -70,8 +76,14 @@ def operate(
     }
     from umbilical.cli.progress import bar
 
+    loaded = _load(operation, changes)
+    if seas:
+        if height is not None:
+            raise BadParameter("--seas has heights of its own", param_hint="'--height'")
+        files_of = {"out": out, "plot": plot, "as_json": as_json, "force": force}
+        return _windows(loaded, seas, criteria, axes, _within(needed, "--needed", 0.01, 1e4), files_of)
     with bar("looking for the limits") as advance:
-        found = limits(_load(operation, changes), criteria, **axes, progress=advance)
+        found = limits(loaded, criteria, **axes, progress=advance)
     files = _store(found, out, plot, force)
     return conclude(
         _workable(found, height),
@@ -79,6 +91,28 @@ def operate(
         document=lambda: {**found.to_dict(), "height": height},
         files=files,
         as_json=as_json,
+    )
+
+
+def _windows(
+    operation: Operation, path: Path, criteria: Any, axes: dict[str, Any], needed: float, options: dict[str, Any]
+) -> int:
+    """Hold the seas of a file against the limits."""
+    from umbilical.cli.progress import bar
+    from umbilical.screening import read_seas, weather
+
+    seas = read_seas(path, operation.sea.peakedness)
+    with bar("looking for the limits") as advance:
+        found = weather(
+            operation, criteria, seas, depth=axes["depth"], heading=axes["heading"], needed=3600.0 * needed,
+            progress=advance,
+        )  # fmt: skip
+    return conclude(
+        Conclusion("NOT_ASKED", found.summary()),
+        text=lambda: "\n".join(_report(found.found)),
+        document=found.to_dict,
+        files=_store(found, options["out"], options["plot"], options["force"]),
+        as_json=options["as_json"],
     )
 
 

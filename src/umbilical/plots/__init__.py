@@ -30,6 +30,7 @@ from umbilical.plots.study import (
 from umbilical.plots.study_map import plot_map
 from umbilical.plots.tip import plot_tip
 from umbilical.plots.tuning import plot_tuning
+from umbilical.plots.weather import plot_weather
 
 PLOTS = {
     "overview": plot_overview,
@@ -67,5 +68,6 @@ __all__ = [
     "plot_study",
     "plot_tip",
     "plot_tuning",
+    "plot_weather",
     "save_figure",
 ]

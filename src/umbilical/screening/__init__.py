@@ -10,6 +10,8 @@ from umbilical.screening.lower import Lowering, lower
 from umbilical.screening.operate import Operability, operate
 from umbilical.screening.operation import Operation
 from umbilical.screening.response import Response, respond
+from umbilical.screening.seas import Seas, read_seas
+from umbilical.screening.weather import Weather, weather
 
 __all__ = [
     "HeaveTransfer",
@@ -17,11 +19,15 @@ __all__ = [
     "Operability",
     "Operation",
     "Response",
+    "Seas",
+    "Weather",
     "axial_period",
     "heave_transfer",
     "load_operation",
     "lower",
     "operate",
     "operation_names",
+    "read_seas",
     "respond",
+    "weather",
 ]

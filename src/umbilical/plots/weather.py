@@ -1,0 +1,40 @@
+"""Sea states of a place against what an operation can work in."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from umbilical.plots.figure import COLOURS, QUIET, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from umbilical.screening.weather import Weather
+
+
+def plot_weather(found: Weather) -> Figure:
+    """Seas over period and height with the limit; of a hindcast, how long its windows are, too."""
+    timed = found.seas.time is not None
+    figure = new_figure(10.0 if timed else 6.0, 4.5)
+    axes = np.atleast_1d(figure.subplots(1, 2 if timed else 1))
+    left, good = axes[0], found.workable
+    size = np.clip(4000.0 * found.seas.weight, 4.0, 60.0)
+    for mask, colour, name in ((good, COLOURS[0], "workable"), (~good, COLOURS[1], "not workable")):
+        left.scatter(found.seas.period[mask], found.seas.height[mask], s=size[mask], color=colour, alpha=0.5,
+                     linewidths=0.0, label=name)  # fmt: skip
+    left.plot(found.found.period, found.found.limit.min(axis=(0, 2)), color="black", linewidth=1.5, label="limit")
+    left.set(xlabel="peak period Tp [s]", ylabel="significant wave height Hs [m]", ylim=(0.0, None))
+    if timed:
+        right, hours = axes[1], np.sort(found.windows)[::-1] / 3600.0
+        right.step(hours, np.arange(1, hours.size + 1), color=COLOURS[0], where="post")
+        right.axvline(found.needed / 3600.0, color=QUIET, linestyle="--", linewidth=1.0, label="needed")
+        right.set(xlabel="length of a window [h]", ylabel="windows that last as long", xscale="log")
+    for ax in axes:
+        ax.grid(alpha=0.25, linewidth=0.6)
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.legend(fontsize=8, frameon=False)
+    figure.suptitle(f"{found.found.operation.name}: {found.share:.1%} of the sea states are workable", fontsize=10,
+                    x=0.01, ha="left")  # fmt: skip
+    return figure

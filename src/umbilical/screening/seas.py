@@ -1,0 +1,140 @@
+"""Sea states of a place: scatter tables and hindcasts, from CSV, NetCDF or spectra that wavespectra reads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from umbilical import files
+from umbilical.columns import Wanted, lists_of, read_columns
+from umbilical.columns.reading import Columns
+from umbilical.errors import FileError, MissingPartnerError, Problem, ScenarioError
+from umbilical.sea.spectrum import period_ratio
+
+_HEIGHTS = ("hs", "hm0", "swh", "vhm0", "significant height", "significant wave height")
+_PERIODS: dict[Any, tuple[str, ...]] = {
+    "peak": ("tp", "peak period", "vtpk"),
+    "zero_crossing": ("tz", "tm02", "zero crossing period", "vtm02"),
+    "mean": ("t1", "tm01", "mean period"),
+}
+_WEIGHTS = ("count", "counts", "occurrence", "occurrences", "probability", "share", "number", "n")
+_TIMES = ("time", "date", "datetime", "t")
+
+
+class Seas(NamedTuple):
+    """Sea states, each of the arrays of the shape (seas,).
+
+    Attributes:
+        height: Hs, m.
+        period: Tp, s.
+        weight: how often each occurs; they add to 1.
+        time: s from the first, increasing; None for a scatter table.
+    """
+
+    height: np.ndarray
+    period: np.ndarray
+    weight: np.ndarray
+    time: np.ndarray | None
+
+
+def read_seas(path: str | Path, peakedness: float = 3.3) -> Seas:
+    """Read a scatter table (a column of counts or shares) or a hindcast (a column of times).
+
+    Args:
+        path: CSV or NetCDF with the columns Hs and one of Tp, Tz, T1 under usual names; or NetCDF of wave spectra
+            (``efth``), which needs wavespectra.
+        peakedness: gamma, which turns Tz or T1 into Tp.
+
+    Raises:
+        FileError: it cannot be read.
+        ScenarioError: columns are missing, without a unit, or hold what no sea is.
+        MissingPartnerError: spectra, and wavespectra is not installed.
+    """
+    origin = Path(path)
+    content = files.read(origin)
+    if content[:4] == b"\x89HDF" and (found := _of_spectra(content, origin)) is not None:
+        return _checked(*found, key=str(path), start=True)
+    columns = read_columns(origin, content)
+    lists, kind, problems = _lists(columns, str(path))
+    if problems:
+        raise ScenarioError(problems, str(path))
+    period = lists["period"] / period_ratio(kind, peakedness)
+    return _checked(lists["height"], period, lists.get("weight"), lists.get("time"), key=str(path))
+
+
+def _lists(columns: Columns, key: str) -> tuple[dict[str, np.ndarray], Any, list[Problem]]:
+    names = {name.lower().replace("_", " ").strip() for name in columns.names}
+    kinds: list[Any] = [kind for kind, known in _PERIODS.items() if names & set(known)]
+    kind: Any = kinds[0] if kinds else "peak"  # of several the peak period, which needs no shape
+    wanted = [Wanted("height", _HEIGHTS, "m"), Wanted("period", _PERIODS[kind], "s")]
+    weighted = [name for name in _WEIGHTS if name in names]
+    timed = [name for name in _TIMES if name in names]
+    if weighted:
+        unit = columns.units[next(n for n in columns.names if n.lower().replace("_", " ").strip() == weighted[0])]
+        wanted += [] if unit == "" else [Wanted("weight", (weighted[0],), "1")]
+    wanted += [Wanted("time", (timed[0],), "s")] if timed and not weighted else []
+    lists, problems = lists_of(columns, wanted, key)
+    if weighted and "weight" not in lists:  # counts have no unit
+        name = next(n for n in columns.names if n.lower().replace("_", " ").strip() == weighted[0])
+        lists["weight"] = columns.values[name]
+    if not weighted and not timed:
+        reason = "a scatter table says how often each sea occurs, a hindcast when"
+        bound = f"one of {', '.join(_WEIGHTS)}, or {', '.join(_TIMES)}"
+        problems.append(Problem(f"{key}.count", "missing", bound, reason, "name that column so"))
+    return lists, kind, problems
+
+
+def _checked(
+    height: np.ndarray, period: np.ndarray, weight: np.ndarray | None, time: np.ndarray | None, *, key: str,
+    start: bool = False,
+) -> Seas:  # fmt: skip
+    """Seas that can be: heights and periods of seas, weights of 0 or more, times that increase."""
+    problems = []
+    shares = np.ones_like(height) if weight is None else weight
+    bad = ~((height >= 0.0) & (height <= 25.0) & np.isfinite(period) & (period > 0.0) & (period <= 40.0))
+    bad &= ~((height == 0.0) & ~np.isfinite(period))  # a calm has no period
+    if bad.any():
+        k = int(np.argmax(bad))
+        problems.append(Problem(
+            key, f"{int(bad.sum())} rows such as Hs {height[k]:g} m, T {period[k]:g} s", "Hs to 25 m, periods to 40 s",
+            "no sea; 99 or 999 are marks of a missing value", "leave such rows out",
+        ))  # fmt: skip
+    if not np.isfinite(shares).all() or (shares < 0.0).any() or shares.sum() <= 0.0:
+        problems.append(Problem(key, "counts", "0 or more, not all 0", "they say how often", "correct them"))
+    if time is not None and not (np.diff(time) > 0.0).all():
+        problems.append(Problem(key, "times", "increasing", "a hindcast runs forward", "sort the rows, none twice"))
+    if problems:
+        raise ScenarioError(problems, key)
+    return Seas(
+        height,
+        np.where(np.isfinite(period), period, 10.0),
+        shares / shares.sum(),
+        None if time is None else time - time[0],
+    )
+
+
+def _of_spectra(content: bytes, origin: Path) -> tuple[np.ndarray, np.ndarray, None, np.ndarray] | None:
+    """Hs, Tp and times of spectra; None where the file holds none."""
+    import io
+
+    import xarray
+
+    try:
+        with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf") as data:
+            if "efth" not in data:
+                return None
+            spectra = data["efth"].load()
+    except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
+        raise FileError(f"{origin}: the file is damaged or no NetCDF ({type(error).__name__})") from error
+    try:
+        import wavespectra  # noqa: F401 (it gives arrays the attribute spec)
+    except ImportError as error:
+        raise MissingPartnerError("wave spectra need wavespectra: pip install 'umbilical[seas]'") from error
+    one = spectra.squeeze()
+    if set(one.dims) - {"time", "freq", "dir"} or "time" not in one.dims:
+        raise FileError(f"{origin}: spectra over {', '.join(map(str, one.dims))}; one site over time is read")
+    known: Any = one.spec
+    seconds = (one["time"].values - one["time"].values[0]) / np.timedelta64(1, "s")
+    return known.hs().values.astype(float), known.tp().values.astype(float), None, seconds.astype(float)
