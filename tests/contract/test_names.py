@@ -43,6 +43,7 @@ NAMES = {
     "plot_positions",
     "plot_study",
     "plot_tip",
+    "plot_weather",
     "preset_names",
     "show",
     "simulate",
