@@ -10,7 +10,7 @@ from fnmatch import fnmatch
 
 import pytest
 
-from tests.support import broken, broken_sea
+from tests.support import broken, broken_rope, broken_sea
 from tests.support.broken import Break, another_scenario
 from umbilical.verify import FAMILIES
 from umbilical.verify.cases import UNFINISHED, Case, worst_ratio
@@ -71,6 +71,23 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "the body's added mass forgotten": (broken_sea.added_mass_forgotten, ("sea, screening",)),
     "half the body in heave": (broken_sea.half_the_body, ("sea, cable*", "sea, screening")),
     "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),
+    "gravity of another planet": (
+        broken_rope.gravity_of_another_planet,
+        ("rope, elastic catenary", "rope, pendulum*", "rope, tow"),
+    ),
+    "half the body of the rope": (
+        broken_rope.half_the_body,
+        ("rope, modes*", "rope, heave*", "rope, taut*", "rope, snaps"),
+    ),
+    "four times the cable of the rope": (broken_rope.four_times_the_cable, ("rope, impact*",)),
+    "half the cable of the rope": (broken_rope.half_the_cable, ("rope, front*",)),
+    "axes of the rope's body swapped": (broken_rope.axes_swapped, ("rope, tow", "rope, sheared*")),
+    "a fifth more drag": (broken_rope.a_fifth_more_drag, ("rope, tow", "rope, sheared*")),
+    "a winch that runs backwards": (
+        broken_rope.winch_that_runs_backwards,
+        ("rope, paying out", "rope, hauling in", "rope, momentum*"),
+    ),
+    "three times the heave": (broken_rope.three_times_the_heave, ("rope, irregular*",)),
     "a ROV that depends on the grid": (another_scenario(broken.a_rov_that_depends_on_the_grid), ("refinement",)),
 }
 """What is broken, and the cases that must notice, by pattern."""

@@ -60,7 +60,7 @@ def test_every_picture_makes_its_own_page(run, name):
 
 
 def test_the_command_line_offers_every_picture():
-    assert set(get_args(Kind)) == set(plots.PLOTS) | set(plots.STUDY_PLOTS)
+    assert set(get_args(Kind)) == {*plots.PLOTS, *plots.ROPE_PLOTS, *plots.STUDY_PLOTS}
 
 
 @pytest.mark.parametrize(

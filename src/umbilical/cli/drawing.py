@@ -18,14 +18,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Kind = Literal[
-    "overview", "tip", "positions", "cable", "motors", "observers", "energy",
+    "overview", "tip", "positions", "cable", "motors", "observers", "energy", "shape", "tension",
     "distribution", "comparison", "map", "sensitivity",
 ]  # fmt: skip
 
 
 def plot(
     file: Annotated[Path, Argument(help="A .nc result, of a run or of a study.")],
-    kind: Annotated[Kind, Option("--kind", help="What to draw; the last four of studies.")] = "overview",
+    kind: Annotated[
+        Kind, Option("--kind", help="What to draw; shape and tension of a rope, the last four of studies.")
+    ] = "overview",
     metric: Annotated[str | None, Option("--metric", metavar="NAME", help="Of a study: what to draw it of.")] = None,
     x: Annotated[str | None, Option("--x", metavar="DRAW", help="Of a map: what is drawn, to the right.")] = None,
     y: Annotated[str | None, Option("--y", metavar="DRAW", help="Of a map: what is drawn, upwards.")] = None,
@@ -62,12 +64,12 @@ def _picture(
     file: Path, kind: Kind, metric: str | None, options: Mapping[str, str | None]
 ) -> Callable[[], Axes | Figure]:
     """What draws the picture, of a run or of a study."""
-    from umbilical.plots import PLOTS, STUDY_PLOTS
+    from umbilical.plots import PLOTS, ROPE_PLOTS, STUDY_PLOTS
     from umbilical.run import open_run
     from umbilical.studies.load import is_study
 
     study = is_study(str(file))
-    pictures: dict[str, Any] = STUDY_PLOTS if study else PLOTS
+    pictures: dict[str, Any] = STUDY_PLOTS if study else PLOTS | ROPE_PLOTS
     if kind not in pictures:
         raise BadParameter(f"of a {'study' if study else 'run'} there are {', '.join(pictures)}", param_hint="--kind")
     chosen = {name: value for name, value in options.items() if value is not None}

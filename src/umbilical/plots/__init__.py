@@ -20,6 +20,7 @@ from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
 from umbilical.plots.operability import plot_lowering, plot_operability
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
+from umbilical.plots.rope import plot_shape, plot_tension
 from umbilical.plots.study import (
     STUDY_PLOTS,
     plot_comparison,
@@ -43,8 +44,12 @@ PLOTS = {
 }
 """Every picture by the name the command line gives it; each takes a run and returns an Axes or a Figure."""
 
+ROPE_PLOTS = {"shape": plot_shape, "tension": plot_tension}
+"""Likewise what only a run of the rope has."""
+
 __all__ = [
     "PLOTS",
+    "ROPE_PLOTS",
     "STUDY_PLOTS",
     "as_figure",
     "plot_all_motors",
@@ -65,7 +70,9 @@ __all__ = [
     "plot_overview",
     "plot_positions",
     "plot_sensitivity",
+    "plot_shape",
     "plot_study",
+    "plot_tension",
     "plot_tip",
     "plot_tuning",
     "plot_weather",

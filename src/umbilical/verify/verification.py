@@ -21,6 +21,8 @@ from umbilical.verify import (
     moving_end,
     observers,
     power_balance,
+    rope,
+    rope_waves,
     sea,
     static_deflection,
     tip_damper,
@@ -40,6 +42,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Whole loop": (*crosscheck.CASES, *cascade.CASES),
     "Invariance": invariance.CASES,
     "Sea and heave": sea.CASES,
+    "Rope": (*rope.CASES, *rope_waves.CASES),
 }
 """Every case, in the order of the table."""
 

@@ -1,0 +1,62 @@
+"""Deliberately wrong ropes: each breaks one thing on its way into the kernels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from umbilical.plant.rope import model, outside
+from umbilical.plant.rope.records import Rope
+
+Break = Callable[[pytest.MonkeyPatch], None]
+
+
+def another_rope(change: Callable[[Rope], dict[str, Any]]) -> Break:
+    """Other constants than those that are asked for."""
+
+    def apply(patch: pytest.MonkeyPatch) -> None:
+        right = model.make_rope
+
+        def wrong(*arguments: Any, **named: Any) -> Rope:
+            rope = right(*arguments, **named)
+            return rope._replace(**change(rope))
+
+        patch.setattr(model, "make_rope", wrong)
+
+    return apply
+
+
+gravity_of_another_planet = another_rope(lambda r: {"weight": 1.05 * r.weight, "body_weight": 1.05 * r.body_weight})
+half_the_body = another_rope(lambda r: {"inertia": 0.5 * r.inertia})
+half_the_cable = another_rope(lambda r: {"density": 0.5 * r.density})
+four_times_the_cable = another_rope(lambda r: {"density": 4.0 * r.density})
+axes_swapped = another_rope(
+    lambda r: {"body_drag": np.ascontiguousarray(r.body_drag[::-1]), "normal_drag": 1.0 * r.normal_drag}
+)
+a_fifth_more_drag = another_rope(lambda r: {"normal_drag": 1.2 * r.normal_drag})
+
+
+def winch_that_runs_backwards(patch: pytest.MonkeyPatch) -> None:
+    """The length grows, and the cable leaves."""
+    right = model.RopeModel._outside
+
+    def wrong(self: model.RopeModel, start: np.ndarray, dt: float) -> Any:
+        found = right(self, start, dt)
+        found["payout_speed"] *= -1.0
+        return found
+
+    patch.setattr(model.RopeModel, "_outside", wrong)
+
+
+def three_times_the_heave(patch: pytest.MonkeyPatch) -> None:
+    """Of a vessel in an irregular sea."""
+    right = outside.heave_of
+
+    def wrong(*arguments: Any) -> outside.Heave:
+        heave = right(*arguments)
+        return heave._replace(amplitude=3.0 * heave.amplitude)
+
+    patch.setattr(outside, "heave_of", wrong)
