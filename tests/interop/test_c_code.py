@@ -19,7 +19,8 @@ from umbilical.interop.c_code import c_files, to_c
 from umbilical.scenario.base import Record
 
 needs_cc = pytest.mark.skipif(compilers.CC is None, reason="no C compiler on this machine")
-WITH_LAW = [name for name in preset_names() if load(name).control.law.kind != "none"]
+STRINGS = [name for name in preset_names() if load(name).model == "string"]
+WITH_LAW = [name for name in STRINGS if load(name).control.law.kind != "none"]
 BOX = {
     "control.allocation.lower": [0.1, -5.0, -5.0],
     "control.allocation.upper": [0.3, 5.0, 5.0],
