@@ -173,6 +173,8 @@ def test_wrong_arguments_are_refused(options: dict[str, Any], key: str) -> None:
 def test_other_refusals() -> None:
     with pytest.raises(ScenarioError, match="no motors to drive"):
         make(scenario="crosscheck-pd", mode="voltage")
+    with pytest.raises(ScenarioError, match="in one plane"):
+        make(changes={"model": "rope"})
     with pytest.raises(ScenarioError, match=r"step\.period"):
         gymnasium.make(TIP, scenario="paper", step=0.00015)
     env = make()
