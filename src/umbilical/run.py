@@ -7,7 +7,7 @@ import json
 import os
 import platform
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from importlib.metadata import version
 from pathlib import Path
@@ -88,7 +88,31 @@ class Status(Enum):
         return self.value
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True)
+class Arrays:
+    """What a dataset will be made of, once somebody asks: xarray takes longer to load than a run to simulate."""
+
+    data_vars: dict[str, tuple]
+    coords: dict[str, tuple]
+    attrs: dict[str, str | int | float]
+
+    def __post_init__(self) -> None:
+        for name, (dims, values, *_) in self.data_vars.items():
+            if (found := np.shape(values)) != (needed := tuple(len(self.coords[dim][1]) for dim in dims)):
+                raise ValueError(f"{name} has the shape {found}; over {', '.join(dims)} it is {needed}")
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.data_vars[name][1]
+
+    def dataset(self) -> xarray.Dataset:
+        """The same with labels."""
+        import xarray
+
+        data = xarray.Dataset(self.data_vars, self.coords, self.attrs)
+        data.attrs[CONTENTS] = contents_of(data)
+        return data
+
+
 class Run:
     """The result of one simulation, complete or not.
 
@@ -105,9 +129,19 @@ class Run:
         'm'
     """
 
-    data: xarray.Dataset
-    scenario: Scenario
-    timing: Mapping[str, float] = field(default_factory=dict)
+    def __init__(
+        self, data: xarray.Dataset | Arrays, scenario: Scenario, timing: Mapping[str, float] | None = None
+    ) -> None:
+        self._kept = data
+        self.scenario = scenario
+        self.timing = dict(timing or {})
+
+    @property
+    def data(self) -> xarray.Dataset:
+        """Every channel and metric, labelled."""
+        if isinstance(self._kept, Arrays):
+            self._kept = self._kept.dataset()
+        return self._kept
 
     def __getitem__(self, name: str) -> xarray.DataArray:
         return self.data[name]
@@ -115,37 +149,39 @@ class Run:
     @property
     def status(self) -> Status:
         """How it ended."""
-        return Status[self.data.attrs["status"]]
+        return Status[self._kept.attrs["status"]]
 
     @property
     def reason(self) -> str:
         """Why it ended, in words."""
-        return self.data.attrs["reason"]
+        return self._kept.attrs["reason"]
 
     @property
     def end_time(self) -> float:
         """The instant it ended at, s."""
-        return float(self.data.attrs["end_time"])
+        return float(self._kept.attrs["end_time"])
 
     @property
     def notices(self) -> tuple[str, ...]:
         """What the user should know about this run."""
-        return (*json.loads(self.data.attrs["notices"]), *self._cut(), *self._other_scenario())
+        return (*json.loads(self._kept.attrs["notices"]), *self._cut(), *self._other_scenario())
 
     @property
     def metrics(self) -> dict[str, float]:
         """Single numbers by name, in SI units; their words are :data:`umbilical.quantities.METRICS`."""
-        names = [str(name).removeprefix(_METRIC) for name in self.data.data_vars if str(name).startswith(_METRIC)]
-        return {name: float(self.data[_METRIC + name]) for name in names if name in METRICS}
+        names = [str(name).removeprefix(_METRIC) for name in self._kept.data_vars if str(name).startswith(_METRIC)]
+        return {name: float(self._kept[_METRIC + name]) for name in names if name in METRICS}
 
     def _cut(self) -> tuple[str, ...]:
         """What must be said of a part of a run: its metrics are not the part's own."""
+        if isinstance(self._kept, Arrays):
+            return ()
         left, of = self.data.sizes["time"], stated_sizes(self.data)["time"]
         return (f"{left} of {of} samples are left; the metrics are those of the whole run",) * (left < of)
 
     def _other_scenario(self) -> tuple[str, ...]:
         """What must be said where the scenario is not the one that was simulated."""
-        was, now = self.data.attrs["scenario_hash"], self.scenario.hash
+        was, now = self._kept.attrs["scenario_hash"], self.scenario.hash
         told = f"the scenario inside is {now[:12]} and the run was of {was[:12]}: it was changed, or is read otherwise"
         return (f"{told} by this version",) * (was != now)
 
@@ -233,8 +269,6 @@ def assemble(
         KeyError: a channel or metric has no words in :mod:`umbilical.quantities`.
         ValueError: an array's shape does not fit its dimensions.
     """
-    import xarray
-
     variables = {name: _channel(name, values) for name, values in channels.items()}
     variables |= {_LOGGED + name: (("time",), values, _OF_CONTROLLER) for name, values in (logged or {}).items()}
     variables |= {_METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
@@ -244,9 +278,8 @@ def assemble(
         "end_time": float(end_time),
         "notices": json.dumps(list(notices), ensure_ascii=False),
     }
-    data = xarray.Dataset(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
-    data.attrs[CONTENTS] = contents_of(data)
-    return Run(data, scenario, dict(timing or {}))
+    arrays = Arrays(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
+    return Run(arrays, scenario, timing)
 
 
 def _channel(name: str, values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from umbilical import load, open_run, preset_names
+from umbilical.engine.warming import PARTS
 from umbilical.scenario.inventory import inventory
 from umbilical.studies.load import study_names
 
@@ -131,3 +132,14 @@ def test_doctor_fails_where_a_package_is_missing(umbilical, monkeypatch):
     done = umbilical("doctor")
     assert done.code == 6
     assert "not installed" in done.out
+
+
+def test_warm_up_compiles_every_loop(umbilical):
+    from umbilical.compile import is_warm
+
+    done = umbilical("warm-up")
+    assert done.code == 0
+    assert [line.split(":")[0] for line in done.out.splitlines()[:-1]] == list(PARTS)
+    assert is_warm("run_steps")
+    assert is_warm("run_held")
+    assert is_warm("find_rates")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -90,3 +93,13 @@ def test_its_attributes_say_where_it_comes_from(run):
     assert attributes["seed"] == 7
     assert attributes["version_numpy"] == np.__version__
     assert "paying out is positive" in attributes["convention"]
+
+
+def test_a_run_in_words_does_not_load_what_its_arrays_need():
+    script = (
+        "import sys, umbilical; run = umbilical.simulate(umbilical.load('paper', {'duration': 0.01}))\n"
+        "run.summary(); run.metrics; run.notices; loaded = {'xarray', 'pandas'} & set(sys.modules)\n"
+        "run['time']; print(loaded, 'xarray' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["set()", "True"]

@@ -34,7 +34,7 @@ def section(command: Callable[..., Any]) -> str:
     examples, _, notes = rest.partition("\n\n")
     lines = [line.strip() for line in examples.splitlines()[1:]]
     options = list(parameters(command))
-    parts = [f"## `umbilical {command.__name__}`", text, notes]
+    parts = [f"## `umbilical {command.__name__.replace('_', '-')}`", text, notes]
     parts.append(table(("argument or option", "meaning"), options) if options else "")
     parts.append("\n".join(["```bash", *lines, "```"]) if lines else "")
     return "\n\n".join(filter(None, parts))

@@ -29,6 +29,7 @@ from umbilical.cli import (
     sweeping,
     tuning,
     verifying,
+    warming,
 )
 from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
 from umbilical.errors import OutputError, UmbilicalError
@@ -70,6 +71,7 @@ for command in (
     listing.presets,
     listing.schema,
     doctoring.doctor,
+    warming.warm_up,
     verifying.verify,
 ):
     app.command()(command)

@@ -1,0 +1,27 @@
+"""Compile every kernel ahead of the first run."""
+
+from __future__ import annotations
+
+from umbilical.admission import load
+from umbilical.control.contract import Command
+from umbilical.engine.episode import Episode
+from umbilical.engine.linear import linearise
+from umbilical.engine.simulate import simulate
+
+PARTS = ("the built-in controller", "controllers in Python", "linearised models")
+
+
+def warm_up(part: str) -> None:
+    """Compile the kernels of one of :data:`PARTS`, or load them from disk if they are there.
+
+    >>> warm_up("the built-in controller")
+    """
+    scenario = load("paper", {"duration": 0.1})
+    match PARTS.index(part):
+        case 0:
+            simulate(scenario)
+        case 1:
+            episode = Episode(scenario, 0.05)
+            episode.step(Command(thrust=0.0))
+        case _:
+            linearise(scenario)
