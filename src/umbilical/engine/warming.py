@@ -5,7 +5,7 @@ from __future__ import annotations
 from umbilical.admission import load
 from umbilical.control.contract import Command
 from umbilical.engine.episode import Episode
-from umbilical.engine.linear import linearise
+from umbilical.engine.linear import linearise_plant
 from umbilical.engine.simulate import simulate
 
 PARTS = ("the built-in controller", "controllers in Python", "linearised models")
@@ -24,4 +24,4 @@ def warm_up(part: str) -> None:
             episode = Episode(scenario, 0.05)
             episode.step(Command(thrust=0.0))
         case _:
-            linearise(scenario)
+            linearise_plant(scenario)
