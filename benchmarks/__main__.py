@@ -10,7 +10,8 @@ import argparse
 
 from benchmarks import measure_all
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.speech import say, say_json
+from umbilical.faces.text import table
 
 
 def main() -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -203,6 +203,26 @@ class Run:
         widths = [max((len(row[k]) for row in rows), default=0) for k in range(3)]
         lines = [f"  {n:<{widths[0]}}  {v:>{widths[1]}} {u:<{widths[2]}}  {meaning}" for n, v, u, meaning in rows]
         return "\n".join([self._headline(), *lines, *(f"  note: {notice}" for notice in self.notices)])
+
+    def to_dict(self) -> dict[str, Any]:
+        """How it ended, its metrics and what is to be known of it, as plain data."""
+        return {
+            "status": self.status.name,
+            "reason": self.reason,
+            "end_time": self.end_time,
+            "scenario": self.scenario.name,
+            "scenario_hash": self.scenario.hash,
+            "metrics": self.metrics,
+            "timing": dict(self.timing),
+            "notices": self.notices,
+            "assumed": self.scenario.assumed,
+        }
+
+    def plot(self, **options: Any) -> Any:
+        """Draw the overview; options as for :func:`umbilical.plots.plot_overview`."""
+        from umbilical import plot_overview
+
+        return plot_overview(self, **options)
 
     def _headline(self) -> str:
         end = f"{self.scenario.name}: {self.status.name} at t = {self.end_time:.6g} s"

@@ -7,8 +7,9 @@ from typing import get_args
 
 import pytest
 
-from umbilical.cli.conclusion import Conclusion, Decision, conclude
+from umbilical.cli.conclusion import conclude
 from umbilical.cli.speech import EXIT_CODES
+from umbilical.faces.conclusion import Conclusion, Decision
 
 
 @pytest.mark.parametrize("decision", get_args(Decision))

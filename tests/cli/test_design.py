@@ -24,7 +24,7 @@ def test_one_verdict_decides_first_line_and_exit_code(met: bool, code: int, word
     from types import SimpleNamespace
     from typing import Any
 
-    from umbilical.cli.designing import conclusion
+    from umbilical.faces.design import conclusion
 
     scenario = SimpleNamespace(name="mine")
     found: Any = SimpleNamespace(met=met, objective="both", after=SimpleNamespace(scenario=scenario))

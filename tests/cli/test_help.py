@@ -9,8 +9,9 @@ import sys
 import pytest
 
 from umbilical import __version__
-from umbilical.cli.speech import DOES_NOT_HOLD, EXIT_CODES
+from umbilical.cli.speech import EXIT_CODES
 from umbilical.errors import UmbilicalError
+from umbilical.faces.conclusion import DOES_NOT_HOLD
 from umbilical.run import Status
 
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")

@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.studies import small_study
 from umbilical import load, simulate
-from umbilical.cli.study_report import study_document
+from umbilical.faces.study import document as study_document
 from umbilical.studies.engines import threads
 from umbilical.studies.load import load_study
 from umbilical.studies.results import open_study

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from umbilical.cli.speech import table
 from umbilical.cli.terminal import printable
+from umbilical.faces.text import table
 
 posix = pytest.mark.skipif(os.name == "nt", reason="streams and signals of POSIX")
 EVIL = "\x1b]0;owned\x07\x1b[31m\u202ered\x9b1m\r\udcff"
@@ -98,7 +98,7 @@ def test_an_interruption_while_modules_are_imported(number):
 def test_a_request_to_terminate_keeps_the_result_as_ctrl_c_does(umbilical, monkeypatch, tmp_path):
     from umbilical import load, simulate
 
-    def terminated(scenario):
+    def terminated(scenario, controller=None):
         return simulate(scenario, progress=lambda share: os.kill(os.getpid(), signal.SIGTERM))
 
     monkeypatch.setattr("umbilical.cli.progress.simulate_visibly", terminated)

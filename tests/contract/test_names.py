@@ -81,7 +81,10 @@ def test_a_report_shows_itself_in_one_line():
     for found in (margins(load("paper"), lengths=[450.0]), certify(load("paper", {"duration": 1.0}))):
         assert len(repr(found)) < 200
         assert "paper: " in repr(found)
-        assert len(found._repr_html_()) < 3000
+        line, _, rest = found._repr_html_().partition("</summary>")
+        assert line.startswith("<details><summary><b>paper: ")
+        assert len(line) < 300
+        assert len(rest) < 10_000
 
 
 def test_doctor_lists_what_the_extras_install():

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from umbilical.cli.options import Json
-from umbilical.cli.speech import say, say_json, table
+from umbilical.cli.speech import say, say_json
+from umbilical.faces.text import table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
 PARTNERS = ("control", "distributed", "SALib", "optuna", "moordyn", "fmpy", "gymnasium")

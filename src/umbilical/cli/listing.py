@@ -8,7 +8,8 @@ from typing import Annotated
 from typer import Argument, Option
 
 from umbilical.cli.options import Force
-from umbilical.cli.speech import say, table
+from umbilical.cli.speech import say
+from umbilical.faces.text import table
 
 
 def presets(

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Changes, Force, Json, Plot
-from umbilical.cli.speech import table
 from umbilical.cli.targets import PICTURES, check_target
+from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.text import table
 
 if TYPE_CHECKING:
     import numpy as np

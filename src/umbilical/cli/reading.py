@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json
-from umbilical.cli.speech import run_document, say, say_json, shown_unit, table
+from umbilical.cli.speech import say, say_json
+from umbilical.faces.text import shown_unit, table
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -52,26 +53,26 @@ def show(
 def _show_study(
     file: str, metrics: tuple[str, ...], sensitivity: str | None, against: str | None, as_json: bool
 ) -> None:
-    from umbilical.cli import study_report
+    from umbilical.faces import study as study_face
     from umbilical.studies.load import load_study
     from umbilical.studies.results import open_study
 
     if Path(file).suffix != ".nc":
         study = load_study(file)
         document = {"study": study.to_dict(), "study_hash": study.hash}
-        say_json(document) if as_json else say(study_report.describe(study))
+        say_json(document) if as_json else say(study_face.describe(study))
         return
     result = open_study(file)
     if unknown := [name for name in (*metrics, *filter(None, [sensitivity])) if name not in result.metrics]:
-        there = f"there are {', '.join(result.metrics)}" if result.metrics else study_report.NONE_COMPLETED
+        there = f"there are {', '.join(result.metrics)}" if result.metrics else study_face.NONE_COMPLETED
         raise BadParameter(f"{unknown[0]} is not there; {there}", param_hint="--metric")
     if against is not None and against not in result.arms:
         raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
     if as_json:
-        say_json(study_report.study_document(result, {"result": file}, against, metrics, sensitivity))
+        say_json(study_face.document(result, {"result": file}, against, metrics, sensitivity))
     else:
-        parts = [study_report.conclusion(result).headline, study_report.report(result, metrics, against)]
-        parts += [study_report.sensitivity_text(result, sensitivity)] if sensitivity else []
+        parts = [study_face.conclusion(result).headline, study_face.text(result, metrics, against)]
+        parts += [study_face.sensitivity_text(result, sensitivity)] if sensitivity else []
         say("\n\n".join(parts))
 
 
@@ -80,7 +81,7 @@ def _show_run(file: str, as_json: bool) -> None:
 
     run = open_run(file)
     if as_json:
-        say_json(run_document(run, {"result": file}))
+        say_json(run.to_dict() | {"files": {"result": file}})
         return
     sizes = ", ".join(f"{name} {size}" for name, size in run.data.sizes.items())
     origin = table([(name, str(run.data.attrs[name])) for name in _ORIGIN])
@@ -131,7 +132,7 @@ def compare(
 
     runs = [open_run(file) for file in files]
     if as_json:
-        say_json({"runs": [run_document(run, {"result": str(f)}) for run, f in zip(runs, files, strict=True)]})
+        say_json({"runs": [run.to_dict() | {"files": {"result": str(f)}} for run, f in zip(runs, files, strict=True)]})
     else:
         say(_comparison(runs, files))
 

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Force, Json
 from umbilical.cli.speech import tell
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
     from umbilical.reproduce import Reproduction
-    from umbilical.reproduce.expected import Deviation
 
 
 def reproduce(
@@ -40,34 +39,23 @@ def reproduce(
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.reproduce import reproduction
     from umbilical.reproduce.article import article
-    from umbilical.reproduce.expected import deviations
+    from umbilical.reproduce.summary import conclusion, document, moved_in, text
     from umbilical.studies.engines import default_jobs
 
     make_room(out, reproduction.targets(reproduction.choose(names, maps=maps), out, report=not names), force=force)
     announce_compilation()
     with bar("reproducing the paper") as advance:
         found = reproduction.reproduce(names, maps=maps, processes=default_jobs(), progress=advance)
-    moved = deviations(found.findings, complete=maps) if found.findings else []
+    moved = moved_in(found)
     written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
     for one in moved:
         tell(f"not as published: {one}")
     return conclude(
         conclusion(found, moved, check=check),
-        text=lambda: summary(found, out, written),
-        document=lambda: document(found, moved, written),
+        text=lambda: "\n".join(filter(None, [text(found), _files(found, out, written)])),
+        document=lambda: {**document(found, moved), "files": written},
         as_json=as_json,
     )
-
-
-def conclusion(found: Reproduction, moved: list[Deviation], *, check: bool) -> Conclusion:
-    """Whether every number is as published, where that was asked."""
-    made = f"reproduced: {len(found.findings)} claims, {len(found.shown)} figures"
-    if not found.findings:
-        return Conclusion("NOT_ASKED", f"reproduced: {len(found.shown)} figures")
-    count = "1 number or verdict is" if len(moved) == 1 else f"{len(moved)} numbers or verdicts are"
-    state = f"{count} NOT as published" if moved else "every number is as published"
-    decision = "NOT_ASKED" if not check else "DOES_NOT_HOLD" if moved else "HOLDS"
-    return Conclusion(decision, f"{made}; {state}")
 
 
 def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
@@ -85,32 +73,9 @@ def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def summary(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
-    """The ledger, and where the files are."""
+def _files(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
+    """Where the files are."""
     from umbilical.reproduce.reproduction import KINDS
 
-    lines = [
-        f"{f.id:<4} {f.statement}\n     {f.conclusion[0].upper() + f.conclusion[1:]}. {f.because}"
-        for f in found.findings
-    ]
-    lines.append(f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}")
-    return "\n".join([*lines, *([f"report: {written['report']}"] if "report" in written else [])])
-
-
-def document(found: Reproduction, moved: list[Deviation], written: dict[str, Any]) -> dict[str, Any]:
-    """A reproduction as ``--json`` prints it."""
-    claims = [
-        {
-            "id": f.id,
-            "statement": f.statement,
-            "verdict": f.verdict.value,
-            "when": f.when if f.conclusion != f.verdict.value else "",
-            "because": f.because,
-            "region": f.region,
-            "measure": f.measure,
-            "numbers": {n.name: {"value": n.value, "unit": n.unit, "meaning": n.meaning} for n in f.numbers},
-        }
-        for f in found.findings
-    ]
-    runs = {name: {"status": run.status.name, "scenario_hash": run.scenario.hash} for name, run in found.runs.items()}
-    return {"claims": claims, "not_as_published": [one._asdict() for one in moved], "runs": runs, "files": written}
+    figures = f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}"
+    return "\n".join([figures, *([f"report: {written['report']}"] if "report" in written else [])])

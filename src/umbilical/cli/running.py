@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option
 
 from umbilical.cli.options import Changes, Force, Json, Own, Plot
-from umbilical.cli.speech import run_document, say, say_json, tell
+from umbilical.cli.speech import say, say_json, tell
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.errors import OutputError, Problem, ScenarioError
 
@@ -51,7 +51,7 @@ def run(
     result = simulate_visibly(chosen, own_controller(controller, chosen))
     files = _write(result, out, plot, force)
     if as_json:
-        say_json(run_document(result, files) | {"controller": controller})
+        say_json(result.to_dict() | {"files": files, "controller": controller})
     else:
         say(_report(result, files, scenario, controller))
     return result.status.exit_code

@@ -46,7 +46,8 @@ def sweep(
     from a result.
     """
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.cli.study_report import conclusion, report, study_document
+    from umbilical.faces.study import conclusion, document
+    from umbilical.faces.study import text as study_text
     from umbilical.studies.sweep import sweep as run
 
     chosen = load_changed_study(study, changes or [])
@@ -65,8 +66,8 @@ def sweep(
     where = {"result": str(folder / "study.nc")}
     return conclude(
         conclusion(found),
-        text=lambda: f"\n{report(found)}\n",
-        document=lambda: study_document(found, where),
+        text=lambda: f"\n{study_text(found)}\n",
+        document=lambda: document(found, where),
         files=where,
         as_json=as_json,
     )

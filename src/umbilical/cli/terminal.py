@@ -72,17 +72,6 @@ def occupy_closed_streams() -> None:
             os.open(os.devnull, os.O_RDWR)
 
 
-def width() -> int | None:
-    """Characters of a line: what ``COLUMNS`` or the terminal says; None where output goes to a file or a pipe."""
-    columns = os.environ.get("COLUMNS", "")
-    if columns.isdecimal() and int(columns[:6]) > 0:
-        return int(columns[:6])
-    try:
-        return os.get_terminal_size(1).columns or None
-    except OSError:
-        return None
-
-
 def _write(stream: TextIO, text: str) -> None:
     coding = stream.encoding or "utf-8"
     stream.write(printable(text.rstrip("\n") + "\n").encode(coding, "backslashreplace").decode(coding))

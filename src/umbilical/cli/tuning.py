@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, Option
 
-from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Anew, Changes, Json, Resume, Trust
-from umbilical.cli.speech import table, tell
+from umbilical.cli.speech import tell
 from umbilical.cli.sweeping import load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target
+from umbilical.faces.tuning import conclusion, document, text
 
 if TYPE_CHECKING:
-    from umbilical.studies.tune import Tuned
-
-_SHOWN = 12
+    pass
 
 
 def tune(
@@ -85,41 +84,13 @@ def tune(
         files["plot"] = str(save_figure(as_figure(plot_tuning(found)), picture, force=force or resume))
     return conclude(
         conclusion(found),
-        text=lambda: "\n\n".join([_report(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),
-        document=lambda: {**found.document(), "files": files},
+        text=lambda: "\n\n".join([text(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),
+        document=lambda: {**document(found), "files": files},
         as_json=as_json,
     )
-
-
-def conclusion(found: Tuned) -> Conclusion:
-    """Whether some gains keep every condition."""
-    kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
-    headline = (
-        f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
-    )
-    if not found.front:
-        return Conclusion("DOES_NOT_HOLD", f"{headline}: none is left to choose")
-    return Conclusion("HOLDS", headline)
 
 
 def _shortened(files: Mapping[str, str]) -> list[tuple[str, str]]:
     """Of many scenarios the first and the last."""
     scenarios = [role for role in files if role.startswith("scenario")]
     return [(role, path) for role, path in files.items() if role not in scenarios[1:-1]]
-
-
-def _report(found: Tuned) -> str:
-    from umbilical.studies.tune import name_of, tuning_of
-
-    tuning = tuning_of(found.study)
-    head = ("", *(gain.key for gain in tuning.gains), *(name_of(objective) for objective in tuning.objectives))
-    rows = [
-        (str(k), *(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values))
-        for k, t in enumerate(found.front, start=1)
-    ]
-    text = "broken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
-    if not rows:
-        return text
-    what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
-    more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
-    return f"{text}\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"

@@ -7,14 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from umbilical.cli.conclusion import Conclusion, conclude
+from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Force, Json
-from umbilical.cli.speech import table
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification
-    from umbilical.verify.cases import Check
 
 FILES = ("verification.md", "verification.json", "convergence.svg")
 
@@ -41,19 +39,15 @@ def verify(
         make_room(out, targets, force=force)
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.verify import verify_all
+    from umbilical.verify.summary import conclusion, document, text
 
     announce_compilation()
     with bar("verifying") as advance:
         found = verify_all(quick, progress=advance)
     files = _write(found, targets, force)
-    return conclude(conclusion(found), text=lambda: _text(found), document=found.document, files=files, as_json=as_json)
-
-
-def conclusion(found: Verification) -> Conclusion:
-    """Whether every check holds; without a check there is nothing to say."""
-    if not any(result.checks for result in found.results):
-        return Conclusion("UNRESOLVED", f"UNRESOLVED, nothing was checked: {found.headline}")
-    return Conclusion("HOLDS" if found.holds else "DOES_NOT_HOLD", found.headline)
+    return conclude(
+        conclusion(found), text=lambda: text(found), document=lambda: document(found), files=files, as_json=as_json
+    )
 
 
 def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:
@@ -69,24 +63,3 @@ def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, s
     write(numbers, data(found).encode(), force=force)
     save_figure(plot_convergence(found.curves), picture, force=force)
     return {"table": str(report), "data": str(numbers), "plots": str(picture)}
-
-
-def _text(found: Verification) -> str:
-    """The table, family by family, a case in a line of its own and its checks below."""
-    parts = []
-    for family, results in found.families.items():
-        lines = [family]
-        for result in results:
-            lines.append(f"  {result.case.name}: {result.case.reference} ({result.case.source})")
-            lines += [f"    skipped: {result.skipped}"] if result.skipped else []
-            lines.append(table([_row(check) for check in result.checks], right=(2, 3, 4, 5)))
-        parts.append("\n".join(filter(None, lines)))
-    return "\n" + "\n\n".join([*parts, found.headline])
-
-
-def _row(check: Check) -> tuple[str, ...]:
-    from umbilical.verify.page import numbers
-
-    ours, expected, error, tolerance = numbers(check)
-    verdict = "holds" if check.holds else "FAILS"
-    return verdict, check.quantity, ours, expected, f"error {error}", f"<= {tolerance}", check.why

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from umbilical.design.score import Demands, Score
 from umbilical.design.search import Objective, Task, Values, inner_knobs
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
+from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 
 UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
@@ -30,7 +32,7 @@ BETAS = 40
 
 
 @dataclass(frozen=True)
-class Design:
+class Design(ResultFaces):
     """Gains that were found, and what they change.
 
     Attributes:
@@ -42,6 +44,9 @@ class Design:
         betas, reflections, followed: for the picture: beta, m/s; largest \\|R\\| of the first modes; whether
             motors, observers and sampling follow with the demanded margins. The other gains are the new ones.
     """
+
+    shown_by: ClassVar[str] = "umbilical.faces.design"
+    drawn_by: ClassVar[str] = "plot_design"
 
     objective: Objective
     values: dict[str, float]

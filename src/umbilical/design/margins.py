@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from html import escape
-from typing import TypeVar
+from typing import ClassVar, TypeVar
 
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import Judgement, check, judge_loop, usual_lengths, usual_thrust
@@ -16,6 +15,7 @@ from umbilical.design.grid import GridJudgement, check_count, judge_grid, resolv
 from umbilical.design.matrix import MatrixCheck
 from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
+from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Channel
 
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class MarginReport:
+class MarginReport(ResultFaces):
     """What a loop is worth over the lengths of its cable.
 
     Attributes:
@@ -35,6 +35,9 @@ class MarginReport:
         controller: what decides in place of the scenario's own law; empty for that.
         doubt: why a controller has no linear system that speaks for it; then there are no judgements.
     """
+
+    shown_by: ClassVar[str] = "umbilical.faces.margins"
+    drawn_by: ClassVar[str] = "plot_margins"
 
     scenario: Scenario
     operating_thrust: float
@@ -50,9 +53,6 @@ class MarginReport:
         lengths = ", ".join(f"{judgement.length:g}" for judgement in self.judgements)
         state = "stable" if self.stable else "unstable"
         return f"<MarginReport {self.scenario.name}: {state}, resolved {self.resolved}, at {lengths} m>"
-
-    def _repr_html_(self) -> str:
-        return f"<p><b>{escape(repr(self))}</b></p>"
 
     @property
     def stable(self) -> bool:

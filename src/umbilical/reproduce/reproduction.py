@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from umbilical import files
 from umbilical.engine.simulate import simulate
@@ -22,6 +23,7 @@ from umbilical.reproduce.regions import edges
 from umbilical.reproduce.slices import GAIN, MAPS, NAMES, compute_slices
 from umbilical.reproduce.tabular import to_csv
 from umbilical.reproduce.work import Progress, in_parallel, parts
+from umbilical.result import ResultFaces
 from umbilical.studies.engines import worker_processes
 
 if TYPE_CHECKING:
@@ -43,13 +45,28 @@ class Shown(NamedTuple):
     svg: bytes
 
 
-class Reproduction(NamedTuple):
+@dataclass(frozen=True, eq=False)
+class Reproduction(ResultFaces):
     """Everything that was found; ``findings`` are empty where only some figures were asked for."""
 
+    shown_by: ClassVar[str] = "umbilical.reproduce.summary"
     runs: Runs
     scans: Mapping[str, xarray.Dataset]
     shown: tuple[Shown, ...]
     findings: tuple[Finding, ...]
+
+    def __repr__(self) -> str:
+        return f"<Reproduction {len(self.findings)} claims, {len(self.shown)} figures>"
+
+    def plot(self, name: str = "") -> Any:
+        """Draw the figure of this name, the first if none is given.
+
+        Raises:
+            KeyError: it was not made.
+        """
+        shown = {one.picture.name: one for one in self.shown}
+        one = shown[name or next(iter(shown))]
+        return one.picture.draw(one.data)
 
     @property
     def mapped(self) -> bool:

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from umbilical.result import ResultFaces
 from umbilical.screening.operation import Operation
 from umbilical.screening.response import respond
 from umbilical.sea.spectrum import Spectrum
@@ -22,7 +23,7 @@ BAND = (0.8, 1.25)
 
 
 @dataclass(frozen=True)
-class Lowering:
+class Lowering(ResultFaces):
     """Risk over the winch speed.
 
     Attributes:

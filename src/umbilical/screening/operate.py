@@ -15,6 +15,7 @@ import numpy as np
 
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.scenario.ship import RaoShip
+from umbilical.result import ResultFaces
 from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
@@ -40,7 +41,7 @@ _PLACES = np.array([1.0, 0.75, 0.5, 0.25, 0.0])
 
 
 @dataclass(frozen=True)
-class Operability:
+class Operability(ResultFaces):
     """Limits over depth, period and heading.
 
     Attributes:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from umbilical.contents import CONTENTS, check, contents_of, json_of, kind_of, r
 from umbilical.errors import FileError
 from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import METRICS
+from umbilical.result import ResultFaces
 from umbilical.run import CONVENTION
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
@@ -33,7 +34,7 @@ KIND = "study"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StudyResult:
+class StudyResult(ResultFaces):
     """The result of a study.
 
     Attributes:
@@ -41,6 +42,9 @@ class StudyResult:
             under its own key; ``point``, the draws in the unit cube; ``status``, ``reason`` and ``end_time``.
         study: what was run.
     """
+
+    shown_by: ClassVar[str] = "umbilical.faces.study"
+    drawn_by: ClassVar[str] = "plot_study"
 
     data: xarray.Dataset
     study: Study

@@ -9,13 +9,14 @@ from contextlib import nullcontext
 from dataclasses import dataclass
 from math import isnan
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from umbilical.analysis.paired import quantile
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.library import admit, load, preset_names
+from umbilical.result import ResultFaces
 from umbilical.scenario.document import extend, look_up, override, validate
 from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
@@ -44,7 +45,7 @@ class Trial:
 
 
 @dataclass(frozen=True)
-class Tuned:
+class Tuned(ResultFaces):
     """The result of a search.
 
     Attributes:
@@ -54,6 +55,9 @@ class Tuned:
         trials: everything tried, in order.
         front: the trials no other beats, by the first objective; one objective: the best alone.
     """
+
+    shown_by: ClassVar[str] = "umbilical.faces.tuning"
+    drawn_by: ClassVar[str] = "plot_tuning"
 
     study: Study
     optimiser: str

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from umbilical.verify.cases import Check, Result
+from umbilical.verify.summary import document
 from umbilical.verify.verification import Verification
 
 HEAD = ("quantity", "ours", "reference", "error", "tolerance", "why this tolerance", "verdict")
@@ -27,7 +28,7 @@ def tables(found: Verification) -> str:
 
 def data(found: Verification) -> str:
     """JSON text; what is not finite becomes null."""
-    return json.dumps(_finite(found.document()), indent=2, allow_nan=False) + "\n"
+    return json.dumps(_finite(document(found)), indent=2, allow_nan=False) + "\n"
 
 
 def _family(family: str, results: Sequence[Result]) -> Iterable[str]:

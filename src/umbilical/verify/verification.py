@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from umbilical.analysis.convergence import Curve
+from umbilical.result import ResultFaces
 from umbilical.verify import (
     adaptation,
     cascade,
@@ -50,10 +51,17 @@ Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
-class Verification:
+class Verification(ResultFaces):
     """What a verification found: a result for each case, by family."""
 
+    shown_by: ClassVar[str] = "umbilical.verify.summary"
     families: dict[str, tuple[Result, ...]]
+
+    def plot(self, **options: Any) -> Any:
+        """Draw the convergence of every family whose order is judged."""
+        from umbilical.plots import plot_convergence
+
+        return plot_convergence(self.curves, **options)
 
     @property
     def results(self) -> tuple[Result, ...]:
@@ -86,16 +94,6 @@ class Verification:
         parts += [f"{_counted(skipped, 'case')} skipped"] if skipped else []
         return ", ".join(parts)
 
-    def document(self) -> dict[str, Any]:
-        """As plain data."""
-        rows = [
-            {"family": family} | row
-            for family, results in self.families.items()
-            for result in results
-            for row in rows_of(result)
-        ]
-        return {"holds": self.holds, "headline": self.headline, "checks": rows}
-
 
 def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
@@ -115,6 +113,7 @@ def verify_all(quick: bool = False, *, progress: Progress = lambda share: None) 
     >>> CASES[0].judge().holds
     True
     """
+
     chosen = {family: [case for case in cases if case.quick or not quick] for family, cases in FAMILIES.items()}
     total, done, found = sum(map(len, chosen.values())), 0, {}
     for family, cases in ((family, cases) for family, cases in chosen.items() if cases):

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from html import escape
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from umbilical.analysis.certificate.loads import Loads
 from umbilical.analysis.certificate.setting import Loop
 from umbilical.errors import Problem
+from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 
 
@@ -117,7 +117,7 @@ class Proof(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class Certificate(ResultFaces):
     """How fast the ideal loop of a scenario is proved to calm down, and how far its loads can push it.
 
     V is scaled so that gam = 1: it is an energy, in J. Between the instants ``edges`` the rates are constant:
@@ -147,6 +147,9 @@ class Certificate:
         limits: what it does not speak about.
     """
 
+    shown_by: ClassVar[str] = "umbilical.faces.certificate"
+    drawn_by: ClassVar[str] = "plot_certificate"
+
     scenario: Scenario
     inequalities: tuple[Inequality, ...]
     margins: Mapping[str, np.ndarray]
@@ -172,13 +175,6 @@ class Certificate:
     def __repr__(self) -> str:
         state = f"certified, {self.rate:.4g} 1/s" if self.holds else "NOT certified"
         return f"<Certificate {self.scenario.name}: {state}>"
-
-    def _repr_html_(self) -> str:
-        cells = (
-            (i.name, f"{i.left:.4g}", f"{i.right:.4g}", i.unit, "" if i.holds else "fails") for i in self.inequalities
-        )
-        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
-        return f"<p><b>{escape(repr(self))}</b></p><table>{rows}</table>"
 
     @property
     def rate(self) -> float:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
-from umbilical.cli.conclusion import Conclusion
-from umbilical.cli.speech import shown_unit, table
+from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.text import shown_unit, table
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
 from umbilical.studies.rows import STATUSES
@@ -28,7 +28,7 @@ _WORST = 3
 _REASONS = 3
 
 
-def report(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
+def text(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
     """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst."""
     study, chosen = result.study, metrics or _usual(result)
     parts = [study.description]
@@ -148,7 +148,7 @@ def _or_dash(value: float) -> str:
     return "-" if np.isnan(value) else f"{value:.3g}"
 
 
-def study_document(
+def document(
     result: StudyResult,
     files: dict[str, str] | None = None,
     against: str | None = None,

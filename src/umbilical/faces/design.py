@@ -1,0 +1,81 @@
+"""A design as a verdict, a text and data."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.margins import document as margins_document
+from umbilical.faces.margins import rows as margin_rows
+from umbilical.faces.text import table
+
+if TYPE_CHECKING:
+    from umbilical.design.design import Design
+    from umbilical.design.rounds import Side
+
+
+def conclusion(found: Design) -> Conclusion:
+    """Whether the gains keep every margin and limit."""
+    state = "all margins and limits are kept" if found.met else "NOT everything is kept"
+    headline = f"{found.after.scenario.name}: designed for {found.objective}; {state}"
+    return Conclusion("HOLDS" if found.met else "DOES_NOT_HOLD", headline)
+
+
+def document(found: Design) -> dict[str, Any]:
+    """A design as ``--json`` prints it."""
+    return {
+        "objective": found.objective,
+        "met": found.met,
+        "missing": found.missing,
+        "limited_by": found.limited_by,
+        "values": found.values,
+        "patch": found.patch(),
+        "before": _side(found.before),
+        "after": _side(found.after),
+    }
+
+
+def _side(side: Side) -> dict[str, Any]:
+    trial = side.trial
+    return {
+        "margins_met": side.meets,
+        "margins_met_at_any_length": side.kept,
+        "reflection_of_first_modes": side.score.reflection,
+        "compliance": side.score.compliance,
+        "status": trial.run.status.name,
+        "late_mid_peak": trial.late_mid_peak,
+        "tip_peak": trial.tip_peak,
+        "voltage_peak": trial.voltage_peak,
+        "speed_peak": trial.speed_peak,
+        "chatter": trial.chatter,
+        "noise": side.noise._asdict(),
+        "margins": margins_document(side.report),
+    }
+
+
+def text(found: Design) -> str:
+    """What the verdict rests on, as people read it."""
+    lines = [f"  missing: {words}" for words in found.missing]
+    lines += [f"  limit: {words}" for words in found.limited_by]
+    lines += [table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
+    for side, words in ((found.before, "before"), (found.after, "after")):
+        lines += [f"  margins {words}", table(margin_rows(side.report), right=range(7))]
+    return "\n".join(lines)
+
+
+def _comparison(found: Design) -> list[tuple[str, str, str]]:
+    named = {
+        "reflection of the first modes": lambda s: f"{s.score.reflection:.4g}",
+        "ROV per force, first modes": lambda s: f"{s.score.compliance:.3g} m/N",
+        "demanded margins, at these lengths": lambda s: "kept" if s.meets else "missed",
+        "... at any length from the shortest on": lambda s: "kept" if s.kept else "missed",
+        "simulation": lambda s: s.trial.run.status.name.lower(),
+        "midpoint, peak in the last third": lambda s: f"{s.trial.late_mid_peak:.4g} m",
+        "ROV, peak": lambda s: f"{s.trial.tip_peak:.4g} m",
+        "voltage, peak": lambda s: f"{s.trial.voltage_peak:.4g} V",
+        "motor speed, peak": lambda s: f"{s.trial.speed_peak:.4g} rad/s",
+        "voltage above 10 Hz, RMS in the last third": lambda s: f"{s.trial.chatter:.3g} V",
+        "... that sensors' noise explains, where it is worst": lambda s: f"{s.noise.rms:.3g} V",
+    }
+    rows = [("", "before", "after")]
+    return rows + [(words, show(found.before), show(found.after)) for words, show in named.items()]

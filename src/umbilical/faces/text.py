@@ -1,0 +1,65 @@
+"""Tables of text as wide as the terminal, and numbers as JSON holds them."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping, Sequence
+from sys import maxsize
+from textwrap import wrap
+from typing import Any
+
+_NARROWEST = 20
+"""Characters of the narrowest column that texts are wrapped in."""
+
+
+def plain(value: Any) -> Any:
+    """The same data as JSON can hold it: what is not finite becomes null.
+
+    >>> plain({"a": (1.0, float("nan"))})
+    {'a': [1.0, None]}
+    """
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item) for item in value]
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value
+
+
+def shown_unit(unit: str) -> str:
+    """A unit as it stands behind a number: nothing for a pure number."""
+    return "" if unit == "1" else unit
+
+
+def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
+    """Rows of cells as aligned columns; those numbered in ``right`` are flush right. Of a line that is too long for the
+    terminal (or for ``COLUMNS``) the last cell is wrapped.
+
+    >>> print(table([("a", "1"), ("bb", "10")], right=[1]))
+      a    1
+      bb  10
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)] if rows else []
+    last = len(widths) - 1
+    indent = sum(widths[:-1]) + 2 * len(widths)
+    room = max((width() or maxsize) - indent, _NARROWEST)
+    lines = []
+    for row in rows:
+        cells = [f"{c:>{w}}" if k in right else f"{c:<{w}}" for k, (c, w) in enumerate(zip(row, widths, strict=True))]
+        if cells and last not in right:
+            cells[-1] = f"\n{' ' * indent}".join(wrap(row[-1], room)) if len(row[-1]) > room else row[-1]
+        lines.append(("  " + "  ".join(cells)).rstrip())
+    return "\n".join(lines)
+
+
+def width() -> int | None:
+    """Characters of a line: what ``COLUMNS`` or the terminal says; None where output goes to a file or a pipe."""
+    columns = os.environ.get("COLUMNS", "")
+    if columns.isdecimal() and int(columns[:6]) > 0:
+        return int(columns[:6])
+    try:
+        return os.get_terminal_size(1).columns or None
+    except OSError:
+        return None
