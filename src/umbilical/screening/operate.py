@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.relations.tension import hanging_of, net_gravity, tension
-from umbilical.scenario.ship import RaoShip
 from umbilical.result import ResultFaces
+from umbilical.scenario.ship import RaoShip
 from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
