@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.certificate.loads import rate, size
+from umbilical.analysis.certificate.loads import jumps, rate, size
 from umbilical.errors import ScenarioError
 from umbilical.library.admit import admit
 from umbilical.plant import regular, signals
 from umbilical.plant.rope.outside import vessel_in_space
 from umbilical.plant.seaway import sheave, spectrum_of
 from umbilical.scenario.environment import Environment
-from umbilical.scenario.signals import Waves
+from umbilical.scenario.signals import Table, Waves
 from umbilical.sea import BoxVessel, Spectrum, motion_of_point
 
 BOX = {"kind": "box", "length": 93.0, "breadth": 20.0, "draught": 6.6, "block_coefficient": 0.75}
@@ -154,3 +154,15 @@ def test_a_sea_that_cannot_be_is_refused(system: dict[str, Any], key: str, words
     found = refused.value.problems[0]
     assert found.key == f"environment.sea.{key}"
     assert words in str(found)
+
+
+def test_bounds_of_monotone_and_jumping_tables() -> None:
+    """What a certificate takes for a load's size, slope and jumps holds of the curve that runs."""
+    fine = np.linspace(0.0, 3.0, 3001)
+    steep = (Table(kind="table", times=(0.0, 1.0, 1.1, 3.0), values=(0.0, 0.0, 1.0, 1.0), interpolation="pchip"),)
+    slopes = abs(signals.derivative(steep, fine))
+    assert slopes.max() <= rate(steep) <= 1.001 * slopes.max()
+    assert size(steep) == 1.0
+    jumping = (Table(kind="table", times=(0.0, 1.0, 1.0, 3.0), values=(0.0, 1.0, 4.0, 4.0), interpolation="linear"),)
+    assert rate(jumping) == 1.0
+    assert jumps(jumping) == ((1.0, 3.0),)
