@@ -16,12 +16,14 @@ from umbilical.result import ResultFaces
 from umbilical.run import Run
 from umbilical.screening.lower import Lowering
 from umbilical.screening.operate import Operability
+from umbilical.screening.weather import Weather
 from umbilical.studies.results import StudyResult
 from umbilical.studies.tune import Tuned
 from umbilical.verify import Verification
 
 RESULTS = (
     Run, Certificate, MarginReport, Design, StudyResult, Tuned, Verification, Reproduction, Operability, Lowering,
+    Weather,
 )  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.result import ResultFaces
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.operate import Operability, operate
 from umbilical.screening.operation import Operation
@@ -22,7 +23,7 @@ SHORTEST, LONGEST = 2.0, 30.0
 
 
 @dataclass(frozen=True)
-class Weather:
+class Weather(ResultFaces):
     """Sea states against limits.
 
     Attributes:
