@@ -33,5 +33,8 @@ def in_words(size: float) -> str:
 
     >>> in_words(6.8e9), in_words(1234)
     ('6.8 GB', '0.0012 MB')
+    >>> in_words(272e6)
+    '272 MB'
     """
-    return f"{size / 1e9:.2g} GB" if size >= 1e9 else f"{size / 1e6:.2g} MB"
+    value, unit = (size / 1e9, "GB") if size >= 1e9 else (size / 1e6, "MB")
+    return f"{value:.0f} {unit}" if value >= 99.5 else f"{value:.2g} {unit}"

@@ -225,7 +225,10 @@ class Run:
         return plot_overview(self, **options)
 
     def _headline(self) -> str:
-        end = f"{self.scenario.name}: {self.status.name} at t = {self.end_time:.6g} s"
+        status, when = f"{self.scenario.name}: {self.status.name}", "at t = "
+        if self.reason.startswith(when):
+            return f"{status} {self.reason}"
+        end = f"{status} {when}{self.end_time:.6g} s"
         return f"{end}, {self.reason}" if self.reason else end
 
     def _rows(self) -> list[tuple[str, str, str, str]]:

@@ -13,10 +13,12 @@ if TYPE_CHECKING:
     from umbilical.design.design import Design
     from umbilical.design.rounds import Side
 
+NOT_ASKED = "the engine's grids; `umbilical margins` of these gains asks them, and may leave the margins unresolved"
+
 
 def conclusion(found: Design) -> Conclusion:
     """Whether the gains keep every margin and limit."""
-    state = "all margins and limits are kept" if found.met else "NOT everything is kept"
+    state = "all margins (of the exact cable) and limits are kept" if found.met else "NOT everything is kept"
     headline = f"{found.after.scenario.name}: designed for {found.objective}; {state}"
     return Conclusion("HOLDS" if found.met else "DOES_NOT_HOLD", headline)
 
@@ -28,6 +30,7 @@ def document(found: Design) -> dict[str, Any]:
         "met": found.met,
         "missing": found.missing,
         "limited_by": found.limited_by,
+        "not_asked": NOT_ASKED,
         "values": found.values,
         "patch": found.patch(),
         "before": _side(found.before),
@@ -60,6 +63,7 @@ def text(found: Design) -> str:
     lines += [table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
     for side, words in ((found.before, "before"), (found.after, "after")):
         lines += [f"  margins {words}", table(margin_rows(side.report), right=range(7))]
+    lines.append(f"  not asked: {NOT_ASKED}")
     return "\n".join(lines)
 
 

@@ -114,7 +114,7 @@ def _apart(g: GridJudgement) -> str:
     if not math.isfinite(d.size):
         return f"stability differs ({what})"
     shared = "margins" if g.margins else "both unstable, poles and fastest growth"
-    return f"{shared} within {100.0 * d.size:.2g} % ({what})"
+    return f"{shared} within {100.0 * d.size:.3g} % ({what})"
 
 
 def _eigenvalues(check: MatrixCheck) -> str:
