@@ -130,6 +130,8 @@ def test_every_channel_and_metric_is_in_a_run() -> None:
     runs = [
         umbilical.simulate(umbilical.load("paper-dead", changes | {"model": model})) for model in ("string", "rope")
     ]
+    wet = {"environment.water": {}, "cable.water": {"diameter": 0.03}, "cable.wet_line_density": 1.3, "duration": 0.05}
+    runs.append(umbilical.simulate(umbilical.load("paper", wet)))
     held = {str(name) for run in runs for name in run.data.data_vars if not str(name).startswith("metric_")}
     assert held == set(CHANNELS)
     assert {name for run in runs for name in run.metrics} | {"largest_snap"} == set(METRICS)

@@ -46,7 +46,7 @@ def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
 
 def forget() -> None:
     """Drop what the engine keeps from run to run: it depends on the functions that are broken here."""
-    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_winch):
+    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_top):
         kept.cache_clear()
 
 

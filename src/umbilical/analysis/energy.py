@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, interpolation_row
-from umbilical.relations.tension import hanging_of, net_gravity, tension
+from umbilical.relations.tension import across, axial_drag_of, hanging_of, sinking, tension
+from umbilical.relations.water import in_water, payload_inertia
 from umbilical.scenario.scenario import Scenario
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(DEGREE + 1)
@@ -23,30 +24,36 @@ def energy(
     *,
     tip_velocity: np.ndarray,
     length: np.ndarray,
-    payout_acceleration: np.ndarray,
+    net_gravity: np.ndarray,
+    sink_speed: np.ndarray,
 ) -> np.ndarray:
     """Energy of cable and ROV at every sample, J, shape (samples,).
 
-    ``1/2 int(rho W^2 + T p^2) dx + 1/2 m W_l^2`` with p = y_x and W = Dy/Dt.
+    ``1/2 int(rho W^2 + T p^2) dx + 1/2 m W_l^2`` with p = y_x and W = Dy/Dt. In water W is y_t + vb y_x, rho and m hold
+    what moves along across, and T is Tt: the physical energy less ``mu (v - zeta')^2 p^2`` (docs/theory.md).
 
     Args:
         scenario: gives density, masses and gravity.
         slopes: Y_sigma = l y_x at the nodes of each element, m, shape (samples, 5, n).
-        velocities: Dy/Dt likewise, m/s.
+        velocities: W likewise, m/s.
         tip_velocity: of the ROV, m/s, shape (samples,), as are the others.
         length: cable paid out, m.
-        payout_acceleration: of the winch, m/s2.
+        net_gravity: g less the acceleration at which the cable sinks, m/s2.
+        sink_speed: speed at which it does, m/s.
     """
     elements = slopes.shape[2]
-    net = net_gravity(scenario.environment.gravity, payout_acceleration)[:, None, None]
-    hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
+    sections = scenario.cable, scenario.payload, scenario.environment
+    net, sinks, water = net_gravity[:, None, None], sink_speed[:, None, None], in_water(*sections)
+    inertia = scenario.cable.line_density + water.added
+    coupling = scenario.cable.line_density * water.added / inertia
+    hung = across(sinking(hanging_of(*sections), axial_drag_of(*sections), sinks), coupling, sinks)
     over = length[:, None, None]
     sigma = (np.arange(elements) + (_POINTS[:, None] + 1.0) / 2.0) / elements
     pull = tension((1.0 - sigma) * over, net, hung)
-    density = scenario.cable.line_density * (_TO_POINTS @ velocities) ** 2
+    density = inertia * (_TO_POINTS @ velocities) ** 2
     density += pull * (_TO_POINTS @ slopes / over) ** 2
     along = np.einsum("spe,p->s", density, _WEIGHTS) * length / (2.0 * elements)
-    return 0.5 * (along + scenario.payload.mass * tip_velocity**2)
+    return 0.5 * (along + payload_inertia(scenario.payload) * tip_velocity**2)
 
 
 def residual(energies: np.ndarray, works: np.ndarray) -> np.ndarray:

@@ -21,8 +21,15 @@ from typing import NamedTuple
 
 import numpy as np
 
+from umbilical.plant.current import speeds_at
+from umbilical.plant.exogenous import current_at
+from umbilical.plant.forces.force import OperatingPoint
+from umbilical.plant.forces.table import dampings
 from umbilical.relations.tension import hanging_of, net_gravity, tension, tension_gain
+from umbilical.relations.water import line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
+
+_POINTS = 2001
 
 
 @dataclass(frozen=True)
@@ -82,14 +89,23 @@ class Waves(NamedTuple):
 
 
 def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
-    """Cable and ROV of a scenario at a length, m, the winch standing still."""
-    cable, payload = scenario.cable, scenario.payload
-    hung, net = hanging_of(cable, payload, scenario.environment), net_gravity(scenario.environment.gravity)
+    """Cable and ROV of a scenario at a length, m, the winch standing still, in the current of the start.
+
+    Drag counts with its slope there. Along the cable, where that varies with depth, the damping is the even one that
+    takes as much from a short wave on its way: the mean over the time of travel.
+    """
+    cable, payload, environment = scenario.cable, scenario.payload, scenario.environment
+    hung, net = hanging_of(cable, payload, environment), net_gravity(environment.gravity)
+    sigma = np.linspace(0.0, 1.0, _POINTS)
+    water = speeds_at(environment, length * sigma) * float(current_at(environment, np.array(0.0))[0])
+    at = OperatingPoint(length, np.zeros(_POINTS), water)
+    slowness = 1.0 / np.sqrt(np.maximum(tension(length * (1.0 - sigma), net, hung), 1e-9))
+    taken = sum(np.trapezoid(found * slowness, sigma) for found in dampings(scenario, at, "cable"))
     return HangingCable(
-        line_density=cable.line_density,
-        damping=cable.damping,
-        payload_mass=payload.mass,
-        payload_damping=payload.damping,
+        line_density=line_inertia(cable, payload, environment),
+        damping=float(taken / np.trapezoid(slowness, sigma)) if environment.water else cable.damping,
+        payload_mass=payload_inertia(payload),
+        payload_damping=float(sum(dampings(scenario, at, "payload"))),
         tip_tension=tension(0.0, net, hung),
         weight=tension_gain(1.0, net, hung),
         length=length,

@@ -35,11 +35,12 @@ from umbilical.control.observers.high_gain import (
     make_high_gain,
     start_high_gain,
 )
-from umbilical.control.outer.boundary import boundary_error, boundary_thrust
+from umbilical.control.outer.boundary import Station, boundary_error, boundary_thrust, make_station
 from umbilical.control.outer.pd import pd_thrust
 from umbilical.control.outer.table import LAWS, NONE, PD
 from umbilical.frames import Frame, integer, part, real
 from umbilical.relations.tension import Hanging, hanging, net_gravity, tension
+from umbilical.relations.water import in_water
 from umbilical.scenario.control import MotorLoop
 from umbilical.scenario.scenario import Scenario
 
@@ -54,6 +55,8 @@ class Outer(NamedTuple):
     payload_damping: float
     gravity: float
     hanging: Hanging
+    station: Station
+    quadratic_drag: float
     velocity_observer: HighGain
     slope_observer: HighGain
     disturbance: Disturbance
@@ -86,6 +89,7 @@ class OuterMemory(Frame):
     velocity = part(HighGainMemory)
     slope = part(HighGainMemory)
     disturbance = part(DisturbanceMemory)
+    slope_mean = real()
 
 
 class MotorMemory(Frame):
@@ -123,14 +127,17 @@ def _outer_settings(scenario: Scenario, period: float) -> Outer:
     law = LAWS[control.law.kind]
     mass = _believed(nominal.payload_mass, scenario.payload.mass)
     gravity = _believed(nominal.gravity, scenario.environment.gravity)
+    water, weight = in_water(None, scenario.payload, None), nominal.payload_wet_weight or scenario.payload.wet_weight
     return Outer(
         law.number,
         law.gains(control.law),
         control.law.reads_rates,
-        mass,
-        _believed(nominal.payload_damping, scenario.payload.damping),
+        mass + water.body_added,
+        _believed(nominal.payload_damping, scenario.payload.damping) + water.body_linear,
         gravity,
-        hanging(mass, 0.0, gravity, nominal.payload_wet_weight or scenario.payload.wet_weight),
+        hanging(mass, 0.0, gravity, weight, added=water.body_vertical),
+        make_station(control.law, period),
+        water.body_quadratic if getattr(control.law, "drag_feedforward", None) else 0.0,
         make_high_gain(control.velocity_observer, period),
         make_high_gain(control.slope_observer, period),
         make_disturbance(control.disturbance_observer, period),
@@ -181,6 +188,7 @@ def start(settings: CascadeSettings, state: CascadeState, readings: Readings) ->
     memory.updates = 0
     start_high_gain(memory.velocity, tip.tip_displacement)
     start_high_gain(memory.slope, tip.tip_slope)
+    memory.slope_mean = tip.tip_slope if outer.station.washout_rate > 0.0 else 0.0
     velocity = tip.tip_velocity if outer.ideal_rates else 0.0
     start_disturbance(outer.disturbance, memory.disturbance, outer.payload_mass, velocity)
     for i in range(motors.nominal.size):
@@ -218,18 +226,24 @@ def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: De
     if s.law == PD:
         out.thrust_command = pd_thrust(s.gains[0], s.gains[1], tip.tip_displacement, velocity)
         return
-    error = boundary_error(s.gains[1], velocity, tip.tip_slope)
+    if advance:
+        memory.slope_mean += s.station.washout_share * (tip.tip_slope - memory.slope_mean)
+    away, lasting = tip.tip_displacement - s.station.place, memory.slope_mean
+    error = boundary_error(s.gains[1], velocity, tip.tip_slope - lasting) + s.station.gain * away
     pull = readings.winch[0].tip_tension
     if pull == 0.0:
         pull = tension(0.0, net_gravity(s.gravity, readings.winch[0].payout_acceleration), s.hanging)
-    known = pull * tip.tip_slope + s.payload_damping * velocity
+    known = pull * tip.tip_slope + s.payload_damping * velocity + s.quadratic_drag * abs(velocity) * velocity
     if advance:
         held = out.thrust_command
         advance_disturbance(s.disturbance, memory.disturbance, s.payload_mass, velocity, error, known - held)
     estimate = disturbance_estimate(s.disturbance, memory.disturbance, s.payload_mass, velocity)
     out.boundary_error = error
     out.disturbance_estimate = estimate
-    out.thrust_command = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, slope_rate, known, estimate)
+    changing = slope_rate - s.station.washout_rate * (tip.tip_slope - lasting)
+    held_back = s.station.gain * s.payload_mass * velocity
+    thrust = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, changing, known, estimate)
+    out.thrust_command = thrust - held_back
 
 
 @glue

@@ -16,6 +16,7 @@ import numpy as np
 from umbilical.analysis.sampled import SampledLoop, sampled_loop
 from umbilical.design.noise import voltage_noise
 from umbilical.design.score import SPARE, Demands, Effort, Judge, Score
+from umbilical.relations.water import payload_inertia
 from umbilical.scenario.scenario import Scenario
 
 Objective = Literal["ringdown", "rejection", "both"]
@@ -54,7 +55,7 @@ class Knob:
 def outer_knobs(scenario: Scenario, wave_speed: float) -> list[Knob]:
     """beta, k_a, both eps and k_s, as far as the periods allow."""
     period = scenario.control.outer_period or scenario.control.period
-    mass = scenario.payload.mass
+    mass = payload_inertia(scenario.payload)
     return [
         Knob("control.law.slope_gain", 1e-3 * wave_speed, wave_speed),
         Knob("control.law.damping_gain", 0.1 * mass, 0.5 * mass / period),

@@ -62,7 +62,8 @@ def assemble_run(
     times = np.arange(samples) * every * period
     if ending.status is Status.COMPLETED and setup.record.log.outside.size > samples:
         samples, times = samples + 1, np.append(times, scenario.duration)
-    named = channels(setup.record.log, samples, bool(scenario.motors))
+    wet = setup.world.plant.forces.wet
+    named = channels(setup.record.log, samples, bool(scenario.motors), wet)
     metrics = all_metrics(scenario, setup)
     if samples:
         metrics |= _balance(scenario, setup.record.log, named)
@@ -109,9 +110,10 @@ def held_values(logged: Sequence[tuple[int, Mapping[str, float]]], updates: np.n
 
 def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
     """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
-    motion = {name: named[name] for name in ("tip_velocity", "length", "payout_acceleration")}
-    works = np.stack([named[name] for name in WORKS], axis=1)
-    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion)
+    motion = {name: named[name] for name in ("tip_velocity", "length")}
+    works = np.stack([named[name] for name in WORKS if name in named], axis=1)
+    sinks = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed")}
+    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion, **sinks)
     named["energy_residual"] = residual(named["energy"], works)
     lost = float(np.abs(named["work_grid"][-1]))
     return {

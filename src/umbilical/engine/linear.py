@@ -1,9 +1,10 @@
 """The engine's own step as matrices: what frequencies, margins and spectra are read from.
 
-Differences of the rates of cable and ROV about a straight cable at rest give their Jacobian there: no second
+Differences of the rates of cable and ROV about a cable at rest in the current give their Jacobian there: no second
 discretisation that could differ from the one that runs, and a force that is not linear counts with its slope at that
-point, a quadratic drag in still water with none. The state lists the slopes and velocities of a block (5, 2 n) as they
-lie in memory (``plant/layout.py``), then the ROV's velocity: 10 n + 1.
+point, a quadratic drag with that of the current and in still water with none. With the winch stopped no rate depends
+on the shape in which the cable rests, so a straight one stands for all. The state lists the slopes and velocities of a
+block (5, 2 n) as they lie in memory (``plant/layout.py``), then the ROV's velocity: 10 n + 1.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ from umbilical.engine.stepping import enter_step, find_rates
 from umbilical.frames import numbers
 from umbilical.plant.cable import PRESENT, RATES
 from umbilical.plant.elements import DEGREE, WEIGHTS
-from umbilical.plant.exogenous import Outside, Steps
+from umbilical.plant.exogenous import Outside, Steps, current_at, variation_of
 from umbilical.plant.multistep import EXPLICIT
 from umbilical.plant.top import top_at
+from umbilical.relations.water import payload_inertia
 from umbilical.scenario.scenario import Scenario
 
 SAMPLES = tuple(TipReadings.fields)
@@ -50,11 +52,11 @@ class LinearPlant(Linear):
 
 
 def linearise_plant(scenario: Scenario, time: float = 0.0) -> LinearPlant:
-    """Rates of cable and ROV with the winch stopped, no load and no thrust, eqs. (6)-(8), straight and at rest.
+    """Rates of cable and ROV with the winch stopped, no load, no heave and no thrust, eqs. (6)-(8), at rest.
 
     Args:
-        scenario: its cable, ROV, gravity, grid and step are used; loads, vessel and controller are left out.
-        time: the winch stops at the length it has then, s.
+        scenario: its cable, ROV, gravity, current, grid and step are used; loads, vessel and controller are left out.
+        time: the winch stops at the length it has then, s, and the current is as it is then.
 
     >>> import umbilical
     >>> linearise_plant(umbilical.load("paper", {"grid.elements": 4})).a.shape
@@ -75,7 +77,7 @@ def linearise_plant(scenario: Scenario, time: float = 0.0) -> LinearPlant:
         samples[1:, columns[-1]] = change[size + 1 :]
     rows, columns, values = (np.concatenate(part) for part in zip(*entries, strict=True))
     push = np.zeros((size, 1))
-    push[-1] = 1.0 / still.payload.mass
+    push[-1] = 1.0 / payload_inertia(still.payload)
     rates = sparse.csc_array((values, (rows, columns)), shape=(size, size))
     names = Names(inputs=("thrust",), outputs=SAMPLES)
     return LinearPlant(rates, push, samples, np.zeros((len(SAMPLES), 1)), names, step)
@@ -137,7 +139,10 @@ def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:
 
 def _stopped(scenario: Scenario, time: float) -> Scenario:
     """The scenario with its winch stopped and nothing that acts from outside."""
-    quiet = {"payload_force": [], "cable_load": [], "vessel_motion": [], "sea": None}
+    quiet = {"payload_force": [], "cable_load": [], "vessel_motion": [], "sea": None, "vessel_heave": None}
+    if variation_of(scenario.environment):
+        factor = float(current_at(scenario.environment, np.array(time))[0])
+        quiet["water.current.variation"] = [{"kind": "constant", "value": factor - 1.0}]
     return scenario.replace(
         {
             "winch": {"law": "constant", "length": float(top_at(scenario.winch, time).length)},

@@ -13,7 +13,7 @@ from umbilical.engine.stepping import PlantState
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import PRESENT, Ends
 from umbilical.plant.exogenous import Exogenous
-from umbilical.plant.forces.table import AlongWorks, EndWorks, add_up
+from umbilical.plant.forces.table import IN_WATER, AlongWorks, EndWorks, add_up
 from umbilical.plant.layout import integrate, probe, to_nodal
 from umbilical.plant.motors import MotorState
 from umbilical.quantities import CHANNELS
@@ -144,16 +144,20 @@ def make_tally(elements: int, motors: tuple[Motor, ...]) -> Tally:
     return Tally(probes, Measures.many(1), records, np.zeros(elements))
 
 
-def channels(log: Log, samples: int, driven: bool) -> dict[str, np.ndarray]:
-    """The first ``samples`` stored samples by name, in the order of ``CHANNELS``; fields from vessel to ROV."""
+def channels(log: Log, samples: int, driven: bool, wet: bool) -> dict[str, np.ndarray]:
+    """The first ``samples`` stored samples by name, in the order of ``CHANNELS``; fields from vessel to ROV.
+
+    Without motors (``driven``) or water (``wet``) there are none of theirs.
+    """
     kept: list[Any] = [log.outside, log.ends, log.works, log.along, log.outer, log.derived]
     if driven:
         kept += [log.motors, log.motors["outside"], log.decisions, log.motors_derived]
     named = {name: rows[name][:samples].copy() for rows in kept for name in rows.dtype.names if name in CHANNELS}
     if driven:
         named["kappa"] = log.kappa[:samples].copy()
-    named |= _along_cable(*inside(log, samples), named)
-    return {name: named[name] for name in CHANNELS if name in named}
+    named |= _along_cable(*inside(log, samples), named, log.ends["slip"][:samples])
+    dry = () if wet else tuple(force.work for force in IN_WATER)
+    return {name: named[name] for name in CHANNELS if name in named and name not in dry}
 
 
 def inside(log: Log, samples: int) -> tuple[np.ndarray, np.ndarray]:
@@ -162,10 +166,14 @@ def inside(log: Log, samples: int) -> tuple[np.ndarray, np.ndarray]:
     return log.blocks[:samples, :, :elements], log.blocks[:samples, :, elements:]
 
 
-def _along_cable(slopes: np.ndarray, velocities: np.ndarray, named: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Displacement, slope and velocity along the cable, shape (samples, 4 n + 1); at the ROV they are its own."""
+def _along_cable(
+    slopes: np.ndarray, velocities: np.ndarray, named: dict[str, np.ndarray], slip: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Displacement, slope and Dy/Dt along the cable, shape (samples, 4 n + 1); at the ROV they are its own."""
     displacement = named["vessel_displacement"][:, None] + integrate(slopes)
     slope, velocity = to_nodal(slopes) / named["length"][:, None], to_nodal(velocities)
+    if slip.any():
+        velocity += slip[:, None] * slope
     displacement[:, -1], velocity[:, -1] = named["tip_displacement"], named["tip_velocity"]
     slope[:, 0], slope[:, -1] = named["vessel_slope"], named["tip_slope"]
     return {"displacement": displacement, "slope": slope, "velocity": velocity}
@@ -247,7 +255,7 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     log.outside[row] = now.outside
     log.ends[row] = now.ends
     log.works[row] = now.works
-    add_up(state.work, log.along[row])
+    add_up(state.work, now.works, log.along[row])
     log.outer[row] = decision.outer[0]
     store_derived(log.derived[row], state, decision)
     for k in range(state.motors.size):

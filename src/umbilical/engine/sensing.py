@@ -102,11 +102,13 @@ def true_slope_rate(state: PlantState) -> float:
 
     With the ROV's velocity imposed as the flux imposes it; so it follows a jump of the thrust at the grid's pace.
     """
-    x = state.blocks[cable.PRESENT]
+    x, slide = state.blocks[cable.PRESENT], state.now[0].ends.slip / state.now[0].outside.length
     n = x.shape[1] // 2
     last, d = 2 * n - 1, cable.TIP_ROW
-    slope = d[0] * x[0, last] + d[1] * x[1, last] + d[2] * x[2, last] + d[3] * x[3, last] + d[4] * x[4, last]
-    slope += cable.LIFT * (state.now[0].ends.tip_velocity - x[4, last])
+    w0, w1, w2 = x[0, last] + slide * x[0, n - 1], x[1, last] + slide * x[1, n - 1], x[2, last] + slide * x[2, n - 1]
+    w3, w4 = x[3, last] + slide * x[3, n - 1], x[4, last] + slide * x[4, n - 1]
+    slope = d[0] * w0 + d[1] * w1 + d[2] * w2 + d[3] * w3 + d[4] * w4
+    slope += cable.LIFT * (state.now[0].ends.tip_velocity - w4)
     return 2.0 * n / state.now[0].outside.length * slope
 
 

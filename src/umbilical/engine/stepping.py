@@ -15,6 +15,7 @@ from umbilical.plant.cable import (
     Cable,
     Ends,
     add_up_displacement,
+    at_moment,
     evaluate,
     look_at_ends,
     make_blocks,
@@ -31,6 +32,7 @@ from umbilical.plant.forces.table import (
     along_cable,
     book_along,
     book_at_ends,
+    flow_past,
     make_along,
     make_forces,
     on_payload,
@@ -96,6 +98,7 @@ class PlantState(NamedTuple):
         faces: flux where elements meet, shape (2, 2 n).
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
+        water: the current's profile at the nodes, m/s, shape (5, n).
         power, work: terms of the power balance along the cable, W, and their integrals, J.
     """
 
@@ -105,6 +108,7 @@ class PlantState(NamedTuple):
     faces: np.ndarray
     starts: np.ndarray
     loads: np.ndarray
+    water: np.ndarray
     power: Along
     work: Along
 
@@ -125,10 +129,12 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         faces=np.zeros((2, 2 * elements)),
         starts=np.zeros(elements + 1),
         loads=np.zeros(loads),
+        water=np.zeros((5, elements)),
         power=make_along(elements),
         work=make_along(elements),
     )
     now = state.now[0]
+    now.ends.current_length = -1.0  # so that the first look at the current works it out
     now.outside.vessel_displacement = float(vessel_at(scenario.environment, 0.0)[0])
     plain(add_up_displacement)(state.blocks[PRESENT], state.starts, now.outside.vessel_displacement)
     now.ends.tip_displacement = state.starts[elements]
@@ -143,7 +149,7 @@ def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
     """
     now = state.now[0]
     before, vessel = now.outside.net_gravity, now.outside.vessel_displacement
-    take_inputs(state, inputs, i, START)
+    take_inputs(plant, state, inputs, i, START)
     now.outside.vessel_displacement = vessel  # the vessel is where the last step left it
     book_tension_jump(plant, state, before)
     now.known_rates = 0
@@ -153,13 +159,14 @@ def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
 
 
 @glue
-def take_inputs(state: PlantState, inputs: Inputs, i: int, column: int) -> None:
+def take_inputs(plant: Plant, state: PlantState, inputs: Inputs, i: int, column: int) -> None:
     """The outside world at start or end of step i."""
     state.now[0].outside = inputs.world[i, column]
     for k in range(state.loads.size):
         state.loads[k] = inputs.loads[i, k, column]
     for k in range(state.motors.size):
         state.motors[k].outside = inputs.motors[i, k, column]
+    flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside)
 
 
 @glue
@@ -167,8 +174,8 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
     """Book the energy that a jump of the winch acceleration adds to the strained cable; ``before`` is g - a."""
     after, length = state.now[0].outside.net_gravity, state.now[0].outside.length
     if after != before and before > 0.0:
-        cable, power, work = plant.cable, state.power.tension, state.work.tension
-        tension.book(cable.hanging, cable.above, state.blocks[PRESENT], power, work, 0.0, length, after, 0.5)
+        power, work = state.power.tension, state.work.tension
+        tension.book_jerk(plant.cable, state.blocks[PRESENT], power, work, 0.0, length, after, 0.5)
         add_power(work, power, 1.0 - before / after)
 
 
@@ -180,14 +187,16 @@ def derive(plant: Plant, state: PlantState, half: float) -> None:
     """
     now, cable, x = state.now[0], plant.cable, state.blocks[PRESENT]
     outside, ends = now.outside, now.ends
-    length, speed, gravity = outside.length, outside.payout_speed, outside.net_gravity
+    moment = at_moment(cable, outside)
     add_up_displacement(x, state.starts, outside.vessel_displacement)
     ends.tip_displacement = state.starts[state.starts.size - 1]
-    look_at_ends(cable, x, ends, length, speed, gravity, outside.vessel_velocity)
-    book_at_ends(plant.forces, cable, ends, now.works, half, outside)
+    look_at_ends(cable, x, ends, moment)
+    book_at_ends(plant.forces, cable, ends, now.works, half, moment, outside, state.water)
     if plant.booked:
-        last = now.last_relative_jerk
-        book_along(plant.forces, cable, x, state.power, state.work, half, outside, last, state.loads)
+        last, loads, water = now.last_relative_jerk, state.loads, state.water
+        book_along(
+            plant.forces, cable, x, state.power, state.work, half, moment, outside, last, loads, water
+        )  # fmt: skip
     now.last_relative_jerk = outside.relative_jerk
 
 
@@ -204,14 +213,14 @@ def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
     """Cable and ROV by the weights of the newest rate, which is evaluated here, and the two before it."""
     cable, blocks, now = plant.cable, state.blocks, state.now[0]
     outside, ends, w = now.outside, now.ends, now.rate_weights
-    length, speed, gravity, vessel = outside.length, outside.payout_speed, outside.net_gravity, outside.vessel_velocity
-    evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, length, speed, gravity, vessel)
-    along_cable(plant.forces, cable, blocks[RATES + newest], state.loads)
-    pull = tension_at(0.0, gravity, cable.hanging) * ends.tip_slope
-    ends.tip_rates[newest] = (on_payload(plant.forces, ends) - pull) / cable.payload_mass
+    moment, rate = at_moment(cable, outside), blocks[RATES + newest]
+    evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, moment)
+    along_cable(plant.forces, cable, blocks[PRESENT], rate, state.loads, state.water, moment, outside)
+    pull = tension_at(0.0, moment.net, moment.hung) * ends.tip_slope
+    ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water, outside) - pull) / cable.payload_inertia
     old, older = (newest + 2) % 3, (newest + 1) % 3
-    loss = speed / length + plant.forces.cable_decay
-    march(blocks[PRESENT], blocks[RATES + newest], blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)
+    loss = moment.speed / moment.length + plant.forces.cable_decay
+    march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)
     ends.tip_velocity += w[0] * ends.tip_rates[newest] + w[1] * ends.tip_rates[old] + w[2] * ends.tip_rates[older]
 
 
@@ -253,15 +262,14 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
     if plant.ideal:
         average.thrust = start.thrust
     now.before = start
-    now.ends.tip_velocity += dt * (average.thrust + average.payload_force) / plant.cable.payload_mass
+    now.ends.tip_velocity += dt * (average.thrust + average.payload_force) / plant.cable.payload_inertia
 
 
 @glue
 def correct_first_step(plant: Plant, state: PlantState, dt: float) -> None:
     """After a jump there is no past: the mean of the rates at both ends (Heun, order 2) replaces the first."""
     now, x = state.now[0], state.blocks[PRESENT]
-    length, speed, gravity = now.outside.length, now.outside.payout_speed, now.outside.net_gravity
-    look_at_ends(plant.cable, x, now.ends, length, speed, gravity, now.outside.vessel_velocity)
+    look_at_ends(plant.cable, x, now.ends, at_moment(plant.cable, now.outside))
     weigh_rates(now, 0.5 * dt, -0.5 * dt, 0.0)
     march_cable(plant, state, (now.newest_rate + 2) % 3)
 
@@ -276,7 +284,7 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: M
     before = now.ends.tip_displacement
     now.start.thrust, now.start.payload_force = now.thrust, now.outside.payload_force
     advance_cable(plant, state, dt)
-    take_inputs(state, inputs, i, END)
+    take_inputs(plant, state, inputs, i, END)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, decision)
         now.thrust = thrust(plant.motors, state.motors)

@@ -40,6 +40,8 @@ def check_known(scenario: Scenario) -> None:
         ScenarioError: no law, or a law, an observer or an option that the C does not have, each by its key.
     """
     problems = [*_unknown_model(scenario), *_unknown(scenario.control, "control")]
+    if scenario.payload.water is not None:
+        problems.append(_problem("payload.water", "given", "none", "export the controller of the ROV in air"))
     if scenario.control.law.kind == "none":
         problems.append(
             Problem(

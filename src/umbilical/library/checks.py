@@ -12,7 +12,7 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, rope, seas, sizes, statics, steps, timeline, weights
+from umbilical.plant.checks import equipment, motion, rope, seas, sizes, statics, steps, timeline, water, weights
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -34,6 +34,12 @@ CHECKS: tuple[Check, ...] = (
     weights.cable_in_water,
     weights.payload_in_water,
     weights.believed_in_water,
+    water.water_of_the_string,
+    water.water_is_there,
+    water.cable_displaces,
+    water.payload_displaces,
+    water.current_profile,
+    water.heave_is_smooth,
     motion.length,
     motion.tension,
     motion.wave_speed,

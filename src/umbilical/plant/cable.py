@@ -28,8 +28,19 @@ import numpy as np
 from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, real, vector
 from umbilical.plant.elements import DERIVATIVE, W0, W1, W2
+from umbilical.plant.exogenous import Exogenous
 from umbilical.plant.layout import positions, to_elements
-from umbilical.relations.tension import Hanging, hanging_of, tension, tension_gain
+from umbilical.relations.tension import (
+    AxialDrag,
+    Hanging,
+    across,
+    axial_drag_of,
+    hanging_of,
+    sinking,
+    tension,
+    tension_gain,
+)
+from umbilical.relations.water import in_water, payload_inertia
 from umbilical.scenario.scenario import Scenario
 
 # Derivative on the reference element. Nodes lie symmetrically, so it turns even functions into odd ones and odd
@@ -54,14 +65,24 @@ class Ends(Frame):
     tip_slope = real()
     vessel_slope = real()
     tip_rates = vector(3)
+    slip = real()
+    current_length = real()
+    current_heave = real()
 
 
 class Cable(NamedTuple):
     """Constants of cable and ROV, SI units."""
 
-    line_density: float
+    line_inertia: float
+    """M = rho + rho_a, dry and added mass of a metre across."""
     hanging: Hanging
-    payload_mass: float
+    axial_drag: AxialDrag
+    added: float
+    """rho_a, kg/m."""
+    coupling: float
+    """mu = rho rho_a/M, kg/m."""
+    payload_inertia: float
+    """m + A_h, kg."""
     above: np.ndarray
     """A = 1 - sigma at the nodes, shape (5, n): distance from the ROV over l."""
     above_faces: np.ndarray
@@ -70,17 +91,58 @@ class Cable(NamedTuple):
     """1 at the velocities of a block, 0 at its slopes, shape (5, 2 n): what damping acts on."""
 
 
+class Moment(NamedTuple):
+    """The cable as a whole at an instant.
+
+    Attributes:
+        length, speed: l, m, and v, m/s.
+        net: g less the acceleration at which the cable sinks, m/s2.
+        vessel: e', m/s.
+        slip: v - vb = rho_a (v - zeta')/M, m/s: how fast the mass that moves across lags behind the cable that slides.
+        hung: what hangs, carried by its drag: T.
+        across: the same less what sliding takes of it: Tt.
+    """
+
+    length: float
+    speed: float
+    net: float
+    vessel: float
+    slip: float
+    hung: Hanging
+    across: Hanging
+
+
 def make_cable(scenario: Scenario) -> Cable:
     """Constants of a scenario's cable."""
-    elements = scenario.grid.elements
-    above = 1.0 - positions(elements)
+    sections = scenario.cable, scenario.payload, scenario.environment
+    added, density = in_water(*sections).added, scenario.cable.line_density
+    above = 1.0 - positions(scenario.grid.elements)
     return Cable(
-        line_density=scenario.cable.line_density,
-        hanging=hanging_of(scenario.cable, scenario.payload, scenario.environment),
-        payload_mass=scenario.payload.mass,
+        line_inertia=density + added,
+        hanging=hanging_of(*sections),
+        axial_drag=axial_drag_of(*sections),
+        added=added,
+        coupling=density * added / (density + added),
+        payload_inertia=payload_inertia(scenario.payload),
         above=np.ascontiguousarray(to_elements(above)),
         above_faces=np.ascontiguousarray(above[::4]),
-        moving=np.tile(np.repeat([0.0, 1.0], elements), (5, 1)),
+        moving=np.tile(np.repeat([0.0, 1.0], scenario.grid.elements), (5, 1)),
+    )
+
+
+@glue
+def at_moment(cable: Cable, outside: Exogenous) -> Moment:
+    """What the kernels need of the outside world."""
+    sinks = outside.sink_speed
+    hung = sinking(cable.hanging, cable.axial_drag, sinks)
+    return Moment(
+        outside.length,
+        outside.payout_speed,
+        outside.net_gravity,
+        outside.vessel_velocity,
+        cable.added * sinks / cable.line_inertia,
+        hung,
+        across(hung, cable.coupling, sinks),
     )
 
 
@@ -93,9 +155,7 @@ def make_blocks(slopes: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def meet(
-    cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, length: float, speed: float, net_gravity: float
-) -> None:
+def meet(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment) -> None:
     """Flux at the interfaces inside the cable, from the two waves that run into each, and the power it takes, W.
 
     ``W* = (W- + W+)/2 + c (p+ - p-)/2`` and ``p* = (p- + p+)/2 + (W+ - W-)/(2 c)``, - on the vessel's side. With
@@ -103,18 +163,18 @@ def meet(
     |v| < c, and of the order of the error squared where the grid resolves the wave.
     """
     n = x.shape[1] // 2
-    scale, above = 1.0 / length, cable.above_faces
-    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
-    rise = tension_gain(length, net_gravity, cable.hanging) / cable.line_density
+    scale, above, speed, slip = 1.0 / moment.length, cable.above_faces, moment.speed, moment.slip
+    foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
+    rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
     before, w_before, after, w_after = x[4, :n], x[4, n:], x[0, :n], x[0, n:]
     flow, pull = faces[LEFT, :n], faces[LEFT, n:]
     for f in range(1, n):
-        transport, square = speed * above[f], foot + rise * above[f]
+        transport, square = speed * above[f] - slip, foot + rise * above[f]
         wave_speed = sqrt(square)
         p, q, u, w = before[f - 1] * scale, after[f] * scale, w_before[f - 1], w_after[f]
         step, w_step = q - p, w - u
         slope, velocity = 0.5 * (p + q + w_step / wave_speed), 0.5 * (u + w + step * wave_speed)
-        impedance = cable.line_density * wave_speed
+        impedance = cable.line_inertia * wave_speed
         losses[f] = impedance * (transport * step * w_step - 0.5 * (w_step * w_step + square * step * step))
         flow[f] = velocity - transport * slope
         pull[f] = scale * (square * slope - transport * velocity)
@@ -128,54 +188,49 @@ def meet(
 
 
 @kernel
-def look_at_ends(
-    cable: Cable, x: np.ndarray, ends: Ends, length: float, speed: float, net_gravity: float, vessel: float
-) -> None:
-    """Slopes y_x at ROV and vessel, each from the wave that runs into it; ``vessel`` is e', m/s."""
+def look_at_ends(cable: Cable, x: np.ndarray, ends: Ends, moment: Moment) -> None:
+    """Slopes y_x at ROV and vessel, each from the wave that runs into it."""
     n = x.shape[1] // 2
-    foot = sqrt(tension(0.0, net_gravity, cable.hanging) / cable.line_density)
-    head = sqrt(tension(length, net_gravity, cable.hanging) / cable.line_density)
-    ends.tip_slope = x[4, n - 1] / length + (ends.tip_velocity - x[4, 2 * n - 1]) / foot
-    ends.vessel_slope = (x[0, n] - vessel + head * x[0, 0] / length) / (head + speed)
+    length, slip = moment.length, moment.slip
+    foot = sqrt(tension(0.0, moment.net, moment.across) / cable.line_inertia)
+    head = sqrt(tension(length, moment.net, moment.across) / cable.line_inertia)
+    ends.slip = slip
+    inside = x[4, n - 1] / length
+    missed = ends.tip_velocity - x[4, 2 * n - 1]
+    # The same as (V - W + c p)/(c - tau) with tau = -slip, written so that it is free of rounding where slip is 0.
+    ends.tip_slope = inside + (missed - slip * inside) / (foot + slip)
+    ends.vessel_slope = (x[0, n] - moment.vessel + head * x[0, 0] / length) / (head + (moment.speed - slip))
 
 
 @kernel
-def meet_ends(
-    cable: Cable,
-    x: np.ndarray,
-    faces: np.ndarray,
-    losses: np.ndarray,
-    ends: Ends,
-    length: float,
-    speed: float,
-    net_gravity: float,
-    vessel: float,
-) -> None:
+def meet_ends(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, moment: Moment) -> None:
     """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
     n = faces.shape[1] // 2
-    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
-    head = tension(length, net_gravity, cable.hanging) / cable.line_density
-    top = vessel + speed * ends.vessel_slope
-    faces[LEFT, 0] = vessel
-    faces[LEFT, n] = (head * ends.vessel_slope - speed * top) / length
+    length, slip = moment.length, moment.slip
+    foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
+    head = tension(length, moment.net, moment.across) / cable.line_inertia
+    enters = moment.speed - slip
+    top, tip = moment.vessel + enters * ends.vessel_slope, ends.tip_velocity - slip * ends.tip_slope
+    faces[LEFT, 0] = moment.vessel
+    faces[LEFT, n] = (head * ends.vessel_slope - enters * top) / length
     faces[RIGHT, n - 1] = ends.tip_velocity
-    faces[RIGHT, 2 * n - 1] = foot * ends.tip_slope / length
-    top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - ends.tip_velocity
-    losses[0] = -cable.line_density * (sqrt(head) + speed) * top_step * top_step
-    losses[n] = -cable.line_density * sqrt(foot) * tip_step * tip_step
+    faces[RIGHT, 2 * n - 1] = (foot * ends.tip_slope + slip * tip) / length
+    top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - tip
+    losses[0] = -cable.line_inertia * (sqrt(head) + enters) * top_step * top_step
+    losses[n] = -cable.line_inertia * (sqrt(foot) + slip) * tip_step * tip_step
 
 
 @kernel
-def flux(cable: Cable, x: np.ndarray, out: np.ndarray, length: float, speed: float, net_gravity: float) -> None:
+def flux(cable: Cable, x: np.ndarray, out: np.ndarray, moment: Moment) -> None:
     """The brackets of the two conservation laws at every node."""
     n = x.shape[1] // 2
-    scale = 1.0 / length
-    foot = tension(0.0, net_gravity, cable.hanging) / cable.line_density
-    rise = tension_gain(length, net_gravity, cable.hanging) / cable.line_density
+    scale, speed, slip = 1.0 / moment.length, moment.speed, moment.slip
+    foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
+    rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
     for j in range(5):
         above, slope, velocity, flow, pull = cable.above[j], x[j, :n], x[j, n:], out[j, :n], out[j, n:]
         for e in range(n):
-            p, w, transport = scale * slope[e], velocity[e], speed * above[e]
+            p, w, transport = scale * slope[e], velocity[e], speed * above[e] - slip
             flow[e] = w - transport * p
             pull[e] = scale * ((foot + rise * above[e]) * p - transport * w)
 
@@ -218,22 +273,13 @@ def march(
 
 @glue
 def evaluate(
-    cable: Cable,
-    blocks: np.ndarray,
-    faces: np.ndarray,
-    losses: np.ndarray,
-    ends: Ends,
-    slot: int,
-    length: float,
-    speed: float,
-    net_gravity: float,
-    vessel: float,
+    cable: Cable, blocks: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, slot: int, moment: Moment
 ) -> None:
     """Rates of the free cable at the present instant into block ``slot`` (0 to 2); forces are added to them."""
     x, rate = blocks[PRESENT], blocks[RATES + slot]
-    meet(cable, x, faces, losses, length, speed, net_gravity)
-    meet_ends(cable, x, faces, losses, ends, length, speed, net_gravity, vessel)
-    flux(cable, x, blocks[FLUX], length, speed, net_gravity)
+    meet(cable, x, faces, losses, moment)
+    meet_ends(cable, x, faces, losses, ends, moment)
+    flux(cable, x, blocks[FLUX], moment)
     differentiate(blocks[FLUX], faces, rate)
 
 

@@ -19,7 +19,7 @@ from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.instants import slack
-from umbilical.scenario.environment import GaussianProfile, Profile, SineProfile, TableProfile
+from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import Winch
 
@@ -53,6 +53,11 @@ class Exogenous(Frame):
     vessel_displacement = real()
     vessel_velocity = real()
     payload_force = real()
+    heave = real()
+    sink_speed = real()
+    sink_acceleration = real()
+    current_factor = real()
+    current_rate = real()
 
 
 class MotorExogenous(Frame):
@@ -68,6 +73,8 @@ class MotorExogenous(Frame):
 
 WINCH = ("length", "payout_speed", "payout_acceleration", "net_gravity", "relative_jerk")
 """Quantities of :class:`Exogenous` that the winch gives, the first it has."""
+SINKING = ("heave", "sink_speed", "sink_acceleration")
+"""What it gives besides where there is water or the sheave heaves."""
 
 
 class Inputs(NamedTuple):
@@ -94,6 +101,7 @@ def published_jumps(scenario: Scenario) -> tuple[float, ...]:
     named = [
         environment.payload_force,
         environment.vessel_motion,
+        variation_of(environment),
         *(load.signal for load in environment.cable_load),
         *(m.torque_disturbance for m in scenario.motors),
         *(m.voltage_disturbance for m in scenario.motors),
@@ -108,6 +116,18 @@ def published_jumps(scenario: Scenario) -> tuple[float, ...]:
         if not found or t - found[-1] > slack(t):  # what differs by round-off is one instant
             found.append(t)
     return tuple(found)
+
+
+def variation_of(environment: Environment) -> signals.Signal:
+    """How the current varies with time; none where it is steady."""
+    current = environment.water.current if environment.water else None
+    return current.variation if current else ()
+
+
+def current_at(environment: Environment, t: Array, side: signals.Side = "right") -> tuple[Array, Array]:
+    """Factor of the current's profile and its rate, 1/s, each of the shape of the instants."""
+    variation = variation_of(environment)
+    return 1.0 + signals.evaluate(variation, t, side), signals.derivative(variation, t, side)
 
 
 def profile(shape: Profile, sigma: Array) -> Array:
@@ -136,6 +156,9 @@ class Outside:
     def __init__(self, scenario: Scenario) -> None:
         self._scenario = scenario
         self._inputs = _empty(scenario, 0)
+        environment = scenario.environment
+        self._sea = environment if environment.vessel_heave else None
+        self._wanted = WINCH + SINKING if environment.vessel_heave or environment.water else WINCH
 
     def sample(self, steps: Steps) -> Inputs:
         """All inputs at the given steps. The arrays are used again by the next call."""
@@ -145,9 +168,12 @@ class Outside:
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
         inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
-        rows = _kept(_winch_at, steps)(self._scenario.winch, environment.gravity, steps)
-        for name, row in zip(WINCH, rows, strict=True):
+        rows = _kept(_winch_at, steps)(self._scenario.winch, self._sea, environment.gravity, steps)
+        for name, row in zip(self._wanted, rows, strict=False):
             inputs.world[name].T[:] = row[:2]
+        if variation_of(environment):
+            current = [inputs.world["current_factor"].T, inputs.world["current_rate"].T]
+            _fill(current, lambda t, side: current_at(environment, t, side), steps, middle=False)
         if environment.vessel_motion or environment.sea:
             motion = [inputs.world["vessel_displacement"].T, inputs.world["vessel_velocity"].T]
             _fill(motion, lambda t, side: vessel_at(environment, t, side), steps, middle=False)
@@ -176,19 +202,22 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
     motors = MotorExogenous.many(steps, len(scenario.motors), 3)
     motors["effectiveness"] = motors["drive_effectiveness"] = 1.0
     loads = np.zeros((steps, len(scenario.environment.cable_load), 2))
-    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), Exogenous.many(steps, 2), motors, loads)
+    world = Exogenous.many(steps, 2)
+    world["current_factor"] = 1.0
+    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), world, motors, loads)
 
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
 @lru_cache(maxsize=16)
-def _winch_at(law: Winch, gravity: float, steps: Steps) -> Array:
-    """Winch and what follows from it, rows as :data:`WINCH` names them."""
+def _winch_at(law: Winch, sea: Environment | None, gravity: float, steps: Steps) -> Array:
+    """Winch and what follows from it, rows as :data:`WINCH` and :data:`SINKING` name them; ``sea`` if it heaves."""
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
-        top = top_at(law, t, side)
-        return top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity)
+        top = top_at(law, t, side, sea)
+        own = top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity)
+        return *own, top.heave, top.sink_speed, top.sink_acceleration
 
-    rows = np.zeros((len(WINCH), 3, steps.start.size))
+    rows = np.zeros((len(WINCH + SINKING), 3, steps.start.size))
     _fill(rows, motion, steps, middle=False)
     return rows
 

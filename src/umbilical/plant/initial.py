@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, interpolation_row
+from umbilical.plant.equilibrium import equilibrium
 from umbilical.plant.signals import spline
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, tension
-from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
+from umbilical.scenario.environment import EquilibriumShape, GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
 _POINTS, _POINT_WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -36,7 +37,7 @@ def _projection() -> np.ndarray:
 
 def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
     """d/dsigma of the initial shape at any positions x/l, m, same shape as ``sigma``."""
-    motion = top_at(scenario.winch, 0.0)
+    motion = top_at(scenario.winch, 0.0, environment=scenario.environment)
     length = float(motion.length)
     above = length * (1.0 - sigma)
     shape = scenario.initial
@@ -51,6 +52,8 @@ def slope_of_shape(scenario: Scenario, sigma: np.ndarray) -> np.ndarray:
             net = float(motion.net_gravity(scenario.environment.gravity))
             hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
             return length * shape.force / tension(above, net, hung)
+        case EquilibriumShape(tip=tip):
+            return length * equilibrium(scenario, 0.0, tip).slope_at(sigma)
         case TableShape():
             return np.asarray(spline(shape.positions, shape.displacements).derivative()(sigma))
         case _:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from functools import lru_cache, singledispatch
 from itertools import pairwise
+from math import comb
 from typing import Any, Literal
 
 import numpy as np
@@ -109,6 +110,51 @@ def vessel(environment: Environment, t: ArrayLike, side: Side = "right") -> tupl
     square = q * q
     fade, fade_rate = q * square * (10.0 - 15.0 * q + 6.0 * square), 30.0 * square * (1.0 - q) ** 2 / ramp
     return fade * displacement, fade * velocity + fade_rate * displacement
+
+
+def heave(environment: Environment, t: ArrayLike, side: Side = "right") -> tuple[Array, Array, Array, Array]:
+    """Heave of the sheave, m, up, and its three derivatives, faded in as :func:`vessel` is; arguments as there.
+
+    Only constants, sines and smooth tables have three derivatives.
+
+    >>> from umbilical.scenario.environment import Environment
+    >>> motion = ({"kind": "sine", "amplitude": 2.0, "frequency": 0.5},)
+    >>> sea = Environment(gravity=10.0, vessel_heave=motion)
+    >>> [round(part.item(), 12) for part in heave(sea, 0.0)]
+    [0.0, 1.0, 0.0, -0.25]
+    """
+    instants = np.asarray(t, dtype=np.float64)
+    parts = np.zeros((4, *instants.shape))
+    for term in environment.vessel_heave or ():
+        parts += [_higher(term, instants, order, side) for order in range(4)]
+    if environment.vessel_heave and environment.vessel_ramp > 0.0:
+        fade = _fade(instants, environment.vessel_ramp, side)
+        parts = np.array([sum(comb(k, j) * fade[j] * parts[k - j] for j in range(k + 1)) for k in range(4)])
+    return parts[0], parts[1], parts[2], parts[3]
+
+
+def _fade(t: Array, ramp: float, side: Side) -> Array:
+    """The fade of :func:`vessel` and its three derivatives, shape (4, ...)."""
+    q = np.clip(t / ramp, 0.0, 1.0)
+    runs = reached(t, 0.0, side) & ~reached(t, ramp, side)
+    return np.array([
+        q**3 * (10.0 - 15.0 * q + 6.0 * q * q),
+        30.0 * q * q * (1.0 - q) ** 2 / ramp,
+        60.0 * q * (1.0 - q) * (1.0 - 2.0 * q) / ramp**2,
+        np.where(runs, (60.0 - 360.0 * q + 360.0 * q * q) / ramp**3, 0.0),
+    ])  # fmt: skip
+
+
+def _higher(term: Term, t: Array, order: int, side: Side) -> Array:
+    """A derivative of a term that has three."""
+    if isinstance(term, Sine):
+        phase = term.phase + 0.5 * np.pi * order
+        return term.amplitude * term.frequency**order * np.sin(term.frequency * t + phase)
+    if isinstance(term, Table):
+        curve = spline(term.times, term.values)
+        thirds = 6.0 * curve.c[0][np.clip(passed(term.times, t, side) - 1, 0, len(term.times) - 2)]
+        return np.asarray(thirds if order == 3 else curve(t, order))
+    return np.broadcast_to(_value(term, t, side) if order == 0 else 0.0, t.shape)
 
 
 def reached(t: Array, instant: float, side: Side) -> NDArray[np.bool_]:

@@ -1,13 +1,14 @@
 """The top end of the cable: what winch and vessel do there at an instant. Everyone who samples either asks here.
 
 Today both are *prescribed*: functions of time alone, which the scenario gives. A winch that is driven would fill the
-same records from its own state. The vessel does not heave yet; its heave would enter :class:`Top`, and with it the
-tension everywhere, for net gravity and its relative jerk are made here.
+same records from its own state. Heave of the sheave enters :class:`Top`, and with it the tension everywhere: net
+gravity and its relative jerk are made here.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,42 +20,67 @@ from umbilical.scenario.environment import Environment
 from umbilical.scenario.winch import Winch
 
 
-class Top(winch.WinchMotion):
-    """How cable leaves the sheave: the winch's motion, and what follows from it for the tension."""
+class Top(NamedTuple):
+    """How cable leaves the sheave, each an array of the shape of the instants.
 
-    __slots__ = ()
+    Attributes:
+        length: cable paid out l, m.
+        speed, acceleration, jerk: of the winch, positive paying out: v, m/s, a, m/s2, and a', m/s3.
+        heave: of the sheave, m, up.
+        sink_speed, sink_acceleration, sink_jerk: of the cable through the water: those of the winch less the heave's.
+    """
+
+    length: Array
+    speed: Array
+    acceleration: Array
+    jerk: Array
+    heave: Array
+    sink_speed: Array
+    sink_acceleration: Array
+    sink_jerk: Array
 
     def net_gravity(self, gravity: float) -> Array:
         """g less the acceleration at which the cable sinks, m/s2."""
-        return tension.net_gravity(gravity, self.acceleration)
+        return tension.net_gravity(gravity, self.sink_acceleration)
 
     def relative_jerk(self, gravity: float) -> Array:
         """Rate of that acceleration over net gravity, 1/s."""
-        return tension.relative_jerk(self.jerk, self.net_gravity(gravity))
+        return tension.relative_jerk(self.sink_jerk, self.net_gravity(gravity))
 
 
-def top_at(law: Winch, t: ArrayLike, side: Side = "right") -> Top:
+def top_at(law: Winch, t: ArrayLike, side: Side = "right", environment: Environment | None = None) -> Top:
     """The top end at instants, s, of any shape; ``side`` is the limit to take exactly at a jump.
+
+    Without an ``environment`` the sheave does not heave: ask so for the winch's motion alone.
 
     >>> from umbilical.scenario.winch import ConstantSpeed
     >>> top = top_at(ConstantSpeed(law="speed", start_length=450.0, speed=-2.0), [0.0, 10.0])
     >>> top.length.tolist(), top.net_gravity(10.0).tolist()
     ([450.0, 430.0], [10.0, 10.0])
     """
-    return Top(*winch.evaluate(law, t, side))
+    motion = winch.evaluate(law, t, side)
+    if environment is None or not environment.vessel_heave:
+        return Top(*motion, np.zeros_like(motion.length), motion.speed, motion.acceleration, motion.jerk)
+    heave = signals.heave(environment, t, side)
+    sinks = (own - up for own, up in zip(motion[1:], heave[1:], strict=True))
+    return Top(*motion, heave[0], *sinks)
 
 
-def top_on_both_sides(law: Winch, t: Array) -> Top:
+def top_on_both_sides(law: Winch, t: Array, environment: Environment | None = None) -> Top:
     """All limits from the left, then all from the right, shape (2 n,) for n instants."""
-    sides = top_at(law, t, "left"), top_at(law, t, "right")
-    return Top(*(np.concatenate(pair) for pair in zip(*sides, strict=True)))
+    sides = top_at(law, t, "left", environment), top_at(law, t, "right", environment)
+    return _joined(np.concatenate(pair) for pair in zip(*sides, strict=True))
 
 
 def top_within(law: Winch, t: Array) -> Top:
     """Rows of instants between jumps, shape (rows, n): limits at both ends of a row are those from inside it."""
     last = np.arange(t.shape[1]) == t.shape[1] - 1
     pairs = zip(top_at(law, t, "right"), top_at(law, t, "left"), strict=True)
-    return Top(*(np.where(last, left, right) for right, left in pairs))
+    return _joined(np.where(last, left, right) for right, left in pairs)
+
+
+def _joined(parts: Iterable[Array]) -> Top:
+    return Top(*parts)
 
 
 def vessel_at(environment: Environment, t: ArrayLike, side: Side = "right") -> Any:

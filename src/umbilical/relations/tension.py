@@ -20,6 +20,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import formula
+from umbilical.relations.water import in_water
 
 Real = Any  # a float inside kernels; a float, an array or an interval outside
 
@@ -41,21 +42,80 @@ class Hanging(NamedTuple):
 
 
 def hanging(
-    mass: Real, line_density: Real, gravity: Real, wet_weight: Real | None = None, wet_density: Real | None = None
+    mass: Real,
+    line_density: Real,
+    gravity: Real,
+    wet_weight: Real | None = None,
+    wet_density: Real | None = None,
+    added: Real = 0.0,
 ) -> Hanging:
     """What hangs, from masses (kg, kg/m), gravity (m/s2), wet weight (N) and wet density (kg/m); None: as in air.
+
+    ``added`` is the mass of water that sinks along with the ROV, A_z, kg: it has inertia and no weight.
 
     >>> hanging(500.0, 2.0, 10.0, wet_weight=4000.0, wet_density=0.5)
     Hanging(mass=500.0, line_density=2.0, buoyancy=1000.0, line_buoyancy=15.0)
     """
-    buoyancy = 0.0 if wet_weight is None else mass * gravity - wet_weight
+    moved = mass + added
+    buoyancy = 0.0 if wet_weight is None else moved * gravity - wet_weight
     line_buoyancy = 0.0 if wet_density is None else (line_density - wet_density) * gravity
-    return Hanging(mass, line_density, buoyancy, line_buoyancy)
+    return Hanging(moved, line_density, buoyancy, line_buoyancy)
 
 
 def hanging_of(cable: Any, payload: Any, environment: Any) -> Hanging:
     """What hangs, from these sections of a scenario."""
-    return hanging(payload.mass, cable.line_density, environment.gravity, payload.wet_weight, cable.wet_line_density)
+    added, wet = in_water(cable, payload, environment).body_vertical, cable.wet_line_density
+    return hanging(payload.mass, cable.line_density, environment.gravity, payload.wet_weight, wet, added)
+
+
+class AxialDrag(NamedTuple):
+    """Drag of what sinks through the water over the square of its speed.
+
+    Attributes:
+        body: 1/2 rho_w (C A)_z of the ROV, N s2/m2.
+        line: 1/2 rho_w pi d C_dt of a metre of cable, N s2/m3.
+    """
+
+    body: Real
+    line: Real
+
+
+def axial_drag_of(cable: Any, payload: Any, environment: Any) -> AxialDrag:
+    """Drag along the cable, from these sections of a scenario."""
+    found = in_water(cable, payload, environment)
+    return AxialDrag(found.body_axial, found.tangential)
+
+
+@formula
+def sinking(hung: Hanging, drag: AxialDrag, speed: Real) -> Hanging:
+    """What hangs while it sinks through the water at a speed, m/s: drag carries it as buoyancy does.
+
+    >>> tension(100.0, 10.0, sinking(hanging(500.0, 2.0, 10.0), AxialDrag(50.0, 0.5), 2.0))
+    6600.0
+    """
+    square = speed * abs(speed)
+    return Hanging(
+        hung.mass, hung.line_density, hung.buoyancy + drag.body * square, hung.line_buoyancy + drag.line * square
+    )
+
+
+@formula
+def across(hung: Hanging, coupling: Real, speed: Real) -> Hanging:
+    """What pulls transverse waves back where added mass does not slide along: Tt = T - mu (v - zeta')^2."""
+    return Hanging(hung.mass, hung.line_density, hung.buoyancy + coupling * speed * speed, hung.line_buoyancy)
+
+
+@formula
+def sliding_rates(
+    hung: Hanging, drag: AxialDrag, coupling: Real, slip: Real, net: Real, speed: Real, acceleration: Real
+) -> tuple[Real, Real]:
+    """What Tt_t + vb T_x holds beside the part that follows the winch's jerk, N/s: at the ROV, and per metre above it.
+
+    ``hung`` as it sinks (:func:`sinking`), ``speed`` and ``acceleration`` of sinking, ``slip = v - vb``, ``net`` g - a.
+    """
+    braked = 2.0 * abs(speed) * acceleration
+    at_payload = -drag.body * braked - 2.0 * coupling * speed * acceleration
+    return at_payload + slip * tension_gain(1.0, net, hung), -drag.line * braked
 
 
 @formula
@@ -68,6 +128,11 @@ def net_gravity(gravity: Real, acceleration: Real = 0.0) -> Real:
 def relative_jerk(jerk: Real, net: Real) -> Real:
     """a'/(g - a), 1/s: DT/Dt is minus this times :func:`inertial_tension`."""
     return jerk / net
+
+
+def mass_of_weight(weight: Real, gravity: Real) -> Real:
+    """The mass that weighs so much in air, kg."""
+    return weight / gravity
 
 
 @formula

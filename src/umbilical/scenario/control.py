@@ -79,12 +79,24 @@ class ProportionalDerivative(Law):
 
 
 class BoundaryLaw(Law):
-    """The paper's output-feedback boundary law, eq. (22)."""
+    """The paper's output-feedback boundary law, eq. (22); with a ``station_gain`` it also holds a place in a current.
+
+    Then ``u_a = x2^ + beta (z1 - z_w) + kappa (y - y_r)``, and z_w follows z1 in ``washout_time``. Alone the law rests
+    wherever the cable hangs straight at the ROV.
+    """
 
     meets_force: ClassVar[bool] = True
     kind: Literal["boundary"]
     damping_gain: float = quantity("damping_gain", **_POSITIVE)
     slope_gain: float = quantity("slope_gain", **_NOT_NEGATIVE)
+    station_gain: float | None = quantity("station_gain", None, **_NOT_NEGATIVE)
+    station: float | None = quantity("station", None)
+    washout_time: float | None = quantity(
+        "washout_time", None, gt=0.0, le=1e6, reason="slower than the first mode", cure="seconds, e.g. 120"
+    )
+    drag_feedforward: bool | None = Field(
+        default=None, description="meet the drag of the ROV's own motion before the observer knows of it"
+    )
     rates: Literal["sensor", "observer"] = Field(
         default="observer", description="where x2 and z2 come from; 'sensor' needs sensors.ideal_velocity"
     )

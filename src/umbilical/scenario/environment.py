@@ -10,6 +10,7 @@ from umbilical.scenario.base import Number, Record, quantity
 from umbilical.scenario.sea import SeaState
 from umbilical.scenario.signals import Signal
 from umbilical.scenario.source import FromFile, from_file
+from umbilical.scenario.water import Water
 
 
 class UniformProfile(Record):
@@ -71,6 +72,10 @@ class Environment(Record):
         reason="the vessel's motion is faded in over it",
         cure="0 for none, else a few seconds",
     )
+    vessel_heave: Signal | None = Field(
+        default=None, description="heave of the sheave, up, faded in likewise", json_schema_extra={"unit": "m"}
+    )
+    water: Water | None = None
 
 
 class Straight(Record):
@@ -107,6 +112,13 @@ class StaticShape(Record):
     force: float = quantity("static_force")
 
 
+class EquilibriumShape(Record):
+    """At rest under the current and the loads as they are at t = 0; the ROV free, or held where ``tip`` says."""
+
+    shape: Literal["equilibrium"]
+    tip: float | None = quantity("equilibrium_tip", None)
+
+
 class TableShape(Record):
     """Displacements at positions sigma = x/l, joined by a cubic spline, at rest."""
 
@@ -116,4 +128,6 @@ class TableShape(Record):
     file: FromFile | None = from_file("positions", "displacements", "1", "m")
 
 
-InitialShape = Annotated[Straight | SineShape | GaussianShape | StaticShape | TableShape, Field(discriminator="shape")]
+InitialShape = Annotated[
+    Straight | SineShape | GaussianShape | StaticShape | EquilibriumShape | TableShape, Field(discriminator="shape")
+]

@@ -6,6 +6,7 @@ from pydantic import Field
 
 from umbilical.scenario.base import Record, quantity
 from umbilical.scenario.signals import Signal
+from umbilical.scenario.water import BodyInWater, CableInWater
 
 
 class Cable(Record):
@@ -19,6 +20,7 @@ class Cable(Record):
         "wet_line_density", None, ge=0.0, le=1e4, reason="a cable that floats does not hang",
         cure="kg per metre, its weight in water over g: 0 floats, left out it weighs as in air",
     )  # fmt: skip
+    water: CableInWater | None = None
 
 
 class Payload(Record):
@@ -30,6 +32,7 @@ class Payload(Record):
         reason="under a ROV that floats the cable is slack, which is no string: that needs a full model of the cable",
     )  # fmt: skip
     damping: float = quantity("payload_damping", ge=0.0, reason="negative damping feeds the ROV", cure="use 0 or more")
+    water: BodyInWater | None = None
 
 
 class Motor(Record):

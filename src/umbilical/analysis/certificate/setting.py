@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -10,8 +10,10 @@ import numpy as np
 
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import winch as laws
+from umbilical.plant.exogenous import variation_of
 from umbilical.plant.top import top_within
 from umbilical.relations.tension import Hanging, hanging, net_gravity
+from umbilical.relations.water import in_water, line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import ConstantLength, Cosine, Winch
 
@@ -74,8 +76,12 @@ class Motion(NamedTuple):
 def loop_of(scenario: Scenario) -> Loop:
     """Constants of the ideal loop.
 
+    A steady current moves the point of rest, about which the loop is the same where all damping is linear; added mass
+    is inertia where the winch stands still.
+
     Raises:
-        ScenarioError: the outer law is not the boundary law, or its slope gain is 0.
+        ScenarioError: the outer law is not the boundary law, or its slope gain is 0; or the water does what no proof
+            covers: quadratic drag, a current that changes, added mass or drag along a cable that moves.
     """
     law, observer = scenario.control.law, scenario.control.disturbance_observer
     if not law.boundary_gains:
@@ -85,10 +91,12 @@ def loop_of(scenario: Scenario) -> Loop:
     if slope_gain <= 0.0:
         reason = "without the slope u_a says nothing about the waves in the cable; nothing can be certified"
         raise ScenarioError([_problem("control.law.slope_gain", "0 m/s", "above 0 m/s", reason)], scenario.name)
+    if problems := list(_not_covered(scenario)):
+        raise ScenarioError(problems, scenario.name)
     observes = observer is not None and observer.enabled
     return Loop(
-        rho=scenario.cable.line_density,
-        m=scenario.payload.mass,
+        rho=line_inertia(scenario.cable, scenario.payload, scenario.environment),
+        m=payload_inertia(scenario.payload),
         g=scenario.environment.gravity,
         wet=scenario.cable.wet_line_density,
         weight=scenario.payload.wet_weight,
@@ -98,6 +106,29 @@ def loop_of(scenario: Scenario) -> Loop:
         k_s=observer.gain if observer is not None and observes else None,
         vs=observer.coupling if observer is not None else 1.0,
     )
+
+
+def _not_covered(scenario: Scenario) -> Iterator[Problem]:
+    """What the water does that the proof says nothing of, by name."""
+    found = in_water(scenario.cable, scenario.payload, scenario.environment)
+    linear = "the proof takes every damping as linear; drag grows with the square of the speed"
+    moves = "the proof has one mass and one tension of a cable that slides; added mass and drag along it are another"
+    still, cure = isinstance(scenario.winch, ConstantLength), "take it to 0 for a certificate, and judge it by margins"
+    heave, dragged = bool(scenario.environment.vessel_heave), found.tangential + found.body_axial > 0.0
+    moved = found.added + found.body_vertical > 0.0
+    holds = "V3 holds no distance from a station, and no slope that is washed out"
+    law = scenario.control.law
+    for key, wrong, reason in (
+        ("control.law.station_gain", bool(getattr(law, "station_gain", None)), holds),
+        ("control.law.washout_time", bool(getattr(law, "washout_time", None)), holds),
+        ("cable.water.normal_drag", found.normal > 0.0, linear),
+        ("payload.water.quadratic_drag", found.body_quadratic > 0.0, linear),
+        ("environment.water.current.variation", bool(variation_of(scenario.environment)), "a steady current only"),
+        ("environment.vessel_heave", heave, "the tension follows the winch alone"),
+        ("cable.water", not still and (moved or dragged), moves),
+    ):
+        if wrong:
+            yield Problem(key, "given", "none of it", reason, cure)
 
 
 def _problem(key: str, value: str, bound: str, reason: str) -> Problem:

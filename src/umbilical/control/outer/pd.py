@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from umbilical.compile import kernel
 from umbilical.control.rates import outer_period, within_a_period
+from umbilical.relations.water import payload_inertia
 from umbilical.scenario.control import Control, ProportionalDerivative
 from umbilical.scenario.findings import Finding
 from umbilical.scenario.hardware import Payload
@@ -26,5 +27,9 @@ def proportional_derivative(control: Control, payload: Payload) -> Iterator[Find
     """The PD baseline, sampled, still is a spring and a damper."""
     law, period = control.law, outer_period(control)
     if isinstance(law, ProportionalDerivative):
-        yield from within_a_period("control.law.velocity_gain", law.velocity_gain, "N s/m", 1.0 / payload.mass, period)
-        yield from within_a_period("control.law.position_gain", law.position_gain, "N/m", period / payload.mass, period)
+        yield from within_a_period(
+            "control.law.velocity_gain", law.velocity_gain, "N s/m", 1.0 / payload_inertia(payload), period
+        )
+        yield from within_a_period(
+            "control.law.position_gain", law.position_gain, "N/m", period / payload_inertia(payload), period
+        )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,16 +15,26 @@ from umbilical.plant.checks import seas
 from umbilical.plant.checks.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.plant.signals import table_jumps
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
-from umbilical.relations.tension import hanging_of, slack_acceleration, smallest_tension
+from umbilical.relations.tension import (
+    Hanging,
+    across,
+    axial_drag_of,
+    hanging_of,
+    largest_tension,
+    sinking,
+    slack_acceleration,
+    smallest_tension,
+)
+from umbilical.relations.water import in_water
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Cable, Payload
-from umbilical.scenario.signals import Pulse, Step, Table
+from umbilical.scenario.signals import Bell, Pulse, Sine, Step, Table
 from umbilical.scenario.winch import Cosine, Winch
 
 _SHORTEST, _LONGEST = 1.0, 2e4
 _FASTEST, _HARDEST, _LARGEST_RMS = 5.0, 9.81, 10.0
-_EVEN_SAMPLES, _SAMPLES_PER_PIECE = 4001, 17
+_EVEN_SAMPLES, _SAMPLES_PER_PIECE, _SAMPLES_PER_TURN, _MOST_SAMPLES = 4001, 17, 64, 400_001
 
 # The key a user turns to mend the motion of each law: how fast it goes, and how hard it speeds up.
 _SPEED_KEY = {"speed": "winch.speed", "quintic": "winch.duration", "trapezoid": "winch.top_speed",
@@ -34,21 +44,46 @@ _LENGTH_KEY = {**_SPEED_KEY, "constant": "winch.length", "cosine": "winch.amplit
 
 
 def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | None:
-    """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet."""
-    law: Any = winch  # frozen records have a hash, which type checkers cannot see
-    return _sampled_winch(law, duration)
+    """Instants, s, and motion at them, dense and on both sides of every jump; None if the law is no function yet.
+
+    The winch alone: whoever asks for the tension asks :func:`sampled_top`.
+    """
+    return _sampled_top(_hashed(winch), None, duration)
+
+
+def sampled_top(winch: Winch, environment: Environment, duration: float) -> tuple[np.ndarray, Top] | None:
+    """The same with the heave of the sheave; None also where that is no smooth function yet."""
+    if not environment.vessel_heave:
+        return _sampled_top(_hashed(winch), None, duration)
+    rough = any(isinstance(term, Step | Pulse | Bell) for term in environment.vessel_heave)
+    if rough or any(isinstance(f, Problem) for f in signals_of_the_environment(environment, duration)):
+        return None
+    return _sampled_top(_hashed(winch), _hashed(environment), duration)
+
+
+def _hashed(record: Any) -> Any:
+    """Frozen records have a hash, which type checkers cannot see."""
+    return record
 
 
 @lru_cache(maxsize=16)
-def _sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | None:
+def _sampled_top(winch: Winch, environment: Environment | None, duration: float) -> tuple[np.ndarray, Top] | None:
     if any(True for _ in tables_of_the_winch(winch, duration)):
         return None
     marks = [0.0, duration, *laws.jumps(winch)]
     if isinstance(winch, Cosine):
         marks += list(np.arange(5) * np.pi / (2.0 * winch.frequency))  # all its extremes, however fast it is
     pieces = np.unique(np.clip(marks, 0.0, duration))
-    t = np.unique(np.concatenate([np.linspace(0.0, duration, _EVEN_SAMPLES), _refined(pieces)]))
-    return np.tile(t, 2), top_on_both_sides(winch, t)
+    t = np.unique(np.concatenate([np.linspace(0.0, duration, _samples(environment, duration)), _refined(pieces)]))
+    return np.tile(t, 2), top_on_both_sides(winch, t, environment)
+
+
+def _samples(environment: Environment | None, duration: float) -> int:
+    """Even samples of a run: enough for each turn of the heave."""
+    terms = environment.vessel_heave or () if environment else ()
+    fastest = max((term.frequency for term in terms if isinstance(term, Sine)), default=0.0)
+    turns = fastest * duration / (2.0 * np.pi)
+    return int(max(_EVEN_SAMPLES, min(_SAMPLES_PER_TURN * turns, _MOST_SAMPLES)))
 
 
 def length(winch: Winch, duration: float) -> Iterator[Finding]:
@@ -72,39 +107,77 @@ def tension(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
     """The tension stays above 0 all along the cable: the winch never outruns the fall of what hangs on it."""
-    if not (sampled := sampled_winch(winch, duration)):
+    if not (sampled := sampled_top(winch, environment, duration)):
         return
     t, motion = sampled
-    hung = hanging_of(cable, payload, environment)
+    hung = sunk(motion, cable, payload, environment)
     bound = slack_acceleration(_possible(motion.length), environment.gravity, hung)
-    worst = int(np.argmax(motion.acceleration - bound))
-    if not motion.acceleration[worst] < bound[worst]:
+    worst = int(np.argmax(motion.sink_acceleration - bound))
+    if not motion.sink_acceleration[worst] < bound[worst]:
+        heaves = bool(environment.vessel_heave) and _stays_taut(winch, duration, environment, cable, payload)
+        drags = f", sinking at {motion.sink_speed[worst]:.4g} m/s" if environment.water else ""
         yield Problem(
-            _ACCELERATION_KEY.get(winch.law, "winch"),
-            f"an acceleration of {amount(motion.acceleration[worst], 'm/s2')} at {t[worst]:.6g} s",
+            "environment.vessel_heave" if heaves else _ACCELERATION_KEY.get(winch.law, "winch"),
+            f"an acceleration of {amount(motion.sink_acceleration[worst], 'm/s2')} at {t[worst]:.6g} s{drags}",
             f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
-            "the tension, the weight below a point less its mass times the acceleration, must stay above 0: "
-            "a cable cannot push",
-            "pay out more gently",
+            "the tension, the weight below a point less its mass times the acceleration"
+            f"{' and less its drag' if drags else ''}, must stay above 0: a cable cannot push",
+            "a calmer sea, slower paying out, or a full model of the cable" if heaves else "pay out more gently",
         )
+
+
+def _stays_taut(winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload) -> bool:
+    """Whether the winch alone, without the heave, keeps the cable taut."""
+    return not any(tension(winch, duration, environment.model_copy(update={"vessel_heave": None}), cable, payload))
+
+
+def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Hanging:
+    """What hangs on the cable at each instant while it sinks as the top end says."""
+    hung = hanging_of(cable, payload, environment)
+    return sinking(hung, axial_drag_of(cable, payload, environment), motion.sink_speed)
+
+
+class Waves(NamedTuple):
+    """Waves at each instant: slowest and fastest speed on the cable, and of what carries them at body and vessel."""
+
+    slowest: np.ndarray
+    fastest: np.ndarray
+    at_payload: np.ndarray
+    at_vessel: np.ndarray
+
+
+def waves_of(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Waves:
+    """``sqrt(Tt/M)`` and the two ends of the transport tau = vb - v sigma, m/s, by the motion of the top end."""
+    added, density = in_water(cable, payload, environment).added, cable.line_density
+    inertia = density + added
+    net, hung = motion.net_gravity(environment.gravity), sunk(motion, cable, payload, environment)
+    pulls = across(hung, density * added / inertia, motion.sink_speed)
+    length, slip = _possible(motion.length), added * motion.sink_speed / inertia
+    slowest, fastest = smallest_tension(length, net, pulls), largest_tension(length, net, pulls)
+    return Waves(
+        np.sqrt(np.maximum(slowest, 0.0) / inertia),
+        np.sqrt(np.maximum(fastest, 0.0) / inertia),
+        -slip,
+        motion.speed - slip,
+    )
 
 
 def wave_speed(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
     """The winch stays slower than the waves, which are slowest where the tension is smallest."""
-    if not (sampled := sampled_winch(winch, duration)):
+    if not (sampled := sampled_top(winch, environment, duration)):
         return
     t, motion = sampled
-    net, hung = motion.net_gravity(environment.gravity), hanging_of(cable, payload, environment)
-    slowest = np.sqrt(np.maximum(smallest_tension(_possible(motion.length), net, hung), 0.0) / cable.line_density)
-    ratio = np.abs(motion.speed) - slowest
+    waves = waves_of(motion, cable, payload, environment)
+    carried = np.maximum(np.abs(waves.at_payload), np.abs(waves.at_vessel))
+    ratio = carried - waves.slowest
     worst = int(np.argmax(ratio))
-    if ratio[worst] >= 0.0 and slowest[worst] > 0.0:
+    if ratio[worst] >= 0.0 and waves.slowest[worst] > 0.0:
         yield Problem(
             _SPEED_KEY.get(winch.law, "winch"),
             f"a speed of {amount(motion.speed[worst], 'm/s')} at {t[worst]:.6g} s",
-            f"slower than the waves, {slowest[worst]:.6g} m/s where the tension is smallest",
+            f"slower than the waves, {waves.slowest[worst]:.6g} m/s where the tension is smallest",
             "waves travel at sqrt(T/rho); a cable that moves faster can tell its ends nothing",
             "a slower winch",
         )

@@ -9,11 +9,13 @@ import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant import signals
-from umbilical.plant.checks.motion import sampled_winch
+from umbilical.plant.checks.motion import sampled_top
 from umbilical.plant.checks.timeline import shapes, signals_of_the_environment
-from umbilical.plant.exogenous import profile
+from umbilical.plant.current import speeds_at
+from umbilical.plant.exogenous import current_at, profile
 from umbilical.plant.top import top_at
-from umbilical.relations.tension import hanging_of, tension
+from umbilical.relations.tension import axial_drag_of, hanging_of, sinking, tension
+from umbilical.relations.water import in_water, line_inertia
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape
 from umbilical.scenario.findings import Finding, Notice
@@ -43,7 +45,7 @@ def static_slope(
 ) -> Iterator[Finding]:
     """The loads that last bend the cable less than a model of small angles allows."""
     broken = (*signals_of_the_environment(environment, duration), *shapes(environment, initial))
-    if broken or not sampled_winch(winch, duration):
+    if broken or not sampled_top(winch, environment, duration) or not _profile_is_sound(environment):
         return
     found = steady_slope(environment, cable, payload, winch, duration, control)
     where = f"a static slope of {found.slope:.3g} at x/l = {found.sigma:.2g}"
@@ -74,24 +76,46 @@ def steady_slope(
     what it takes to hold the ROV, and less as it creeps at ``-beta y_x``. The thrusters are taken to give what the law
     asks for.
     """
-    if not environment.cable_load and (not environment.payload_force or control.law.boundary_gains):
+    loaded = environment.cable_load or flows(environment)
+    if not loaded and (not environment.payload_force or control.law.boundary_gains):
         return Steady(0.0, 0.0, True)
     t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
-    motion = top_at(winch, t)
+    motion = top_at(winch, t, environment=environment)
     length = motion.length[:, None]
     net = motion.net_gravity(environment.gravity)[:, None]
-    pull = tension(length * (1.0 - sigma), net, hanging_of(cable, payload, environment))
+    hung, drag = hanging_of(cable, payload, environment), axial_drag_of(cable, payload, environment)
+    pull = tension(length * (1.0 - sigma), net, sinking(hung, drag, motion.sink_speed[:, None]))
     if not pull.min() > 0.0:
         return Steady(0.0, 0.0, True)  # a slack cable has its own problem
-    below = length * _from_below(_loads(environment, t, sigma), sigma)
+    found = in_water(cable, payload, environment)
+    water = speeds_at(environment, length * sigma - motion.heave[:, None]) * current_at(environment, t)[0][:, None]
+    loads = _loads(environment, t, sigma) + found.normal * np.abs(water) * water
+    below = length * _from_below(loads, sigma)
+    passing = water[:, -1]
+    pushed = (found.body_linear + found.body_quadratic * np.abs(passing)) * passing
     carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
-    slopes = (_left_at_the_payload(environment, control, t, pull[:, -1], carried, alone)[:, None] + below) / pull
-    crossing = float(np.max(length[:, 0] * _sum(np.sqrt(cable.line_density / pull), sigma)))
+    slopes = (
+        _left_at_the_payload(environment, control, t, pull[:, -1], carried, alone, pushed)[:, None] + below
+    ) / pull
+    crossing = float(np.max(length[:, 0] * _sum(np.sqrt(line_inertia(cable, payload, environment) / pull), sigma)))
     wanted = int(np.ceil(2.0 * crossing / duration * (_INSTANTS - 1))) + 1
     window = min(wanted, _INSTANTS)
     lasting = np.maximum(_least(slopes, window), _least(-slopes, window)).max(axis=0)
     worst = int(np.argmax(lasting))
     return Steady(max(float(lasting[worst]), 0.0), float(sigma[worst]), wanted <= _INSTANTS)
+
+
+def _profile_is_sound(environment: Environment) -> bool:
+    """A table of the current that has no problem of its own."""
+    current = environment.water.current if environment.water else None
+    if current is None:
+        return True
+    return len(current.depths) == len(current.speeds) and bool(np.all(np.diff(current.depths) > 0.0))
+
+
+def flows(environment: Environment) -> bool:
+    """Whether there is a current."""
+    return environment.water is not None and environment.water.current is not None
 
 
 def _loads(environment: Environment, t: np.ndarray, sigma: np.ndarray) -> np.ndarray:
@@ -103,13 +127,19 @@ def _loads(environment: Environment, t: np.ndarray, sigma: np.ndarray) -> np.nda
 
 
 def _left_at_the_payload(
-    environment: Environment, control: Control, t: np.ndarray, pull: np.ndarray, carried: np.ndarray, alone: np.ndarray
+    environment: Environment,
+    control: Control,
+    t: np.ndarray,
+    pull: np.ndarray,
+    carried: np.ndarray,
+    alone: np.ndarray,
+    pushed: np.ndarray,
 ) -> np.ndarray:
     """Force on the ROV that the cable has to bear, N, shape (instants,).
 
-    With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N.
+    With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N, ``pushed`` its drag at rest, N.
     """
-    force = signals.evaluate(environment.payload_force, t)
+    force = signals.evaluate(environment.payload_force, t) + pushed
     if gains := control.law.boundary_gains:
         return _creeping(t, carried, alone, gains[1] / pull)
     spring = control.law.spring

@@ -8,14 +8,15 @@ from math import pi, sqrt
 import numpy as np
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.motion import sampled_winch
+from umbilical.plant.checks.motion import sampled_top, sunk, waves_of
 from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.plant.rope.assemble import rope_step
 from umbilical.plant.top import top_at
 from umbilical.relations.instants import count_up
-from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension
+from umbilical.relations.tension import hanging_of, net_gravity, tension
+from umbilical.relations.water import line_inertia, payload_inertia
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
@@ -61,12 +62,11 @@ def wave_step(
     cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
 ) -> float:
     """Longest stable step for the fastest wave in the shortest element throughout the run, s."""
-    if not (sampled := sampled_winch(winch, duration)):
+    if not (sampled := sampled_top(winch, environment, duration)):
         return float("inf")  # the winch has its own problem
     _, motion = sampled
-    net, hung = motion.net_gravity(environment.gravity), hanging_of(cable, payload, environment)
-    pull = np.maximum(largest_tension(motion.length, net, hung), 0.0)
-    speed = np.sqrt(pull / cable.line_density) + np.abs(motion.speed)
+    found = waves_of(motion, cable, payload, environment)
+    speed = found.fastest + np.maximum(np.abs(found.at_vessel), np.abs(found.at_payload))
     crossing = float(np.min(np.maximum(motion.length, 0.0) / speed))
     return _MARGIN * courant_limit() * crossing / grid.elements if crossing > 0.0 else float("inf")
 
@@ -113,13 +113,13 @@ def waves_that_leave(
     grid: Grid,
 ) -> Iterator[Finding]:
     """The ROV loses momentum to the waves it sends up the cable, at the rate ``sqrt(rho T)/m``."""
-    if not (sampled := sampled_winch(winch, duration)):
+    if not (sampled := sampled_top(winch, environment, duration)):
         return
-    net, hung = sampled[1].net_gravity(environment.gravity), hanging_of(cable, payload, environment)
+    net, hung = sampled[1].net_gravity(environment.gravity), sunk(sampled[1], cable, payload, environment)
     pull = max(float(np.max(tension(0.0, net, hung))), 0.0)
-    step, impedance = plant_step(control, grid), sqrt(cable.line_density * pull)
+    step, impedance = plant_step(control, grid), sqrt(line_inertia(cable, payload, environment) * pull)
     limit = impedance * step / (_MARGIN * DECAY_LIMIT)
-    if payload.mass < limit:
+    if payload_inertia(payload) < limit:
         yield Problem(
             "payload.mass",
             amount(payload.mass, "kg"),
@@ -182,7 +182,7 @@ def grid_near_the_payload(
 ) -> Iterator[Finding]:
     """Waves too short for the grid are damped where a real cable sends them back from the vessel."""
     pull = tension(0.0, net_gravity(environment.gravity), hanging_of(cable, payload, environment))
-    speed = sqrt(pull / cable.line_density)
+    speed = sqrt(pull / line_inertia(cable, payload, environment))
     gains = control.law.boundary_gains
     if gains and gains[1] >= _FELT_FROM * speed:
         longest = float(top_at(winch, [0.0, duration]).length.max())

@@ -8,6 +8,7 @@ from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
 from umbilical.plant.checks.tables import TableOf, smoothness, table_problems
+from umbilical.plant.exogenous import variation_of
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario import Scenario
 from umbilical.scenario.control import Control
@@ -26,8 +27,8 @@ _MOST_STORED = 1e8
 MOST_JUMPS = 1e5
 """Instants of one fault or signal at which a step of the plant must end; as many take some seconds."""
 _SHAPE = TableOf("initial", "positions", "displacements", (0.0, 1.0), exact=True)
-_UNITS = {"payload_force": "N", "vessel_motion": "m", "signal": "N/m", "torque_disturbance": "N m",
-          "voltage_disturbance": "V"}  # fmt: skip
+_UNITS = {"payload_force": "N", "vessel_motion": "m", "vessel_heave": "m", "variation": "1", "signal": "N/m",
+          "torque_disturbance": "N m", "voltage_disturbance": "V"}  # fmt: skip
 
 
 def grid_of_time(duration: float, control: Control, output: Output) -> Iterator[Finding]:
@@ -166,6 +167,8 @@ def _leaves(data: object, path: str = "") -> Iterator[str]:
 def of_environment(environment: Environment) -> Iterator[tuple[str, Signal]]:
     yield "environment.payload_force", environment.payload_force
     yield "environment.vessel_motion", environment.vessel_motion
+    yield "environment.vessel_heave", environment.vessel_heave or ()
+    yield "environment.water.current.variation", variation_of(environment)
     for number, load in enumerate(environment.cable_load, start=1):
         yield f"environment.cable_load.{number}.signal", load.signal
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding
 from umbilical.scenario.scenario import Scenario
 
@@ -76,3 +77,9 @@ def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
     """work += power * time, along a row."""
     for k in range(work.size):
         work[k] += time * power[k]
+
+
+def fastest_current(environment: Environment) -> float:
+    """Largest speed of the current's profile, m/s; how it varies is not in it."""
+    current = environment.water.current if environment.water else None
+    return max(map(abs, current.speeds)) if current else 0.0

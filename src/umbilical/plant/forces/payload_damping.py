@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from umbilical.compile import glue
 from umbilical.plant.forces.force import Decay, Force, OperatingPoint
+from umbilical.relations.water import payload_inertia
 from umbilical.scenario.hardware import Payload
 from umbilical.scenario.scenario import Scenario
 
@@ -26,8 +27,8 @@ def damping(scenario: Scenario, at: OperatingPoint) -> float:
 
 
 def decay(payload: Payload, **_: object) -> Decay:
-    """c_tip over the mass."""
-    return Decay("payload.damping", payload.damping, "N s/m", payload.mass)
+    """c_tip over the mass that moves with the ROV."""
+    return Decay("payload.damping", payload.damping, "N s/m", payload_inertia(payload))
 
 
 FORCE = Force("work_payload_damping", "payload", damping, decay)

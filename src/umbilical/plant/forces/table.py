@@ -8,22 +8,41 @@ E = 1/2 int(rho W^2 + T p^2) dx + 1/2 m W_l^2::
             - T_0 p_0 e' - (v/2) T_0 p_0^2 + (rho v/2) (e' + v p_0)^2
             - 1/2 (a'/(g - a)) int (m + rho (l - x)) (g - a) p^2
 
-What the upwind flux takes from waves too short for the grid is booked too, and no part of the model.
+In water rho is M, T is Tt, v is vb and W is Wb = y_t + vb y_x (``plant/cable.py``), m is m + A_h, and there are drag,
+current, added mass and what sliding changes of the tension besides. What the upwind flux takes from waves too short for
+the grid is booked too, and no part of the model.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, real
-from umbilical.plant.cable import Cable, Ends
+from umbilical.plant import current as profile_of_current
+from umbilical.plant.cable import Cable, Ends, Moment
+from umbilical.plant.current import Profile, make_profile
 from umbilical.plant.exogenous import Exogenous, profiles
-from umbilical.plant.forces import cable_damping, cable_load, given, grid, payload_damping, tension, vessel
-from umbilical.plant.forces.force import Decay
+from umbilical.plant.forces import (
+    added_mass,
+    body_drag,
+    cable_damping,
+    cable_load,
+    current,
+    drag,
+    given,
+    grid,
+    payload_damping,
+    tension,
+    vessel,
+)
+from umbilical.plant.forces.body_drag import BodyDrag
+from umbilical.plant.forces.current import Moved
+from umbilical.plant.forces.drag import Drag
+from umbilical.plant.forces.force import Decay, OperatingPoint
 from umbilical.plant.layout import to_elements
 from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.environment import Environment
@@ -39,11 +58,17 @@ FORCES = (
     cable_damping.FORCE,
     cable_load.FORCE,
     tension.FORCE,
+    drag.FORCE,
+    body_drag.FORCE,
+    current.FORCE,
+    added_mass.FORCE,
     grid.FORCE,
 )
 """Everything that does work on cable and ROV, in the order of result files."""
 
 WORKS = tuple(force.work for force in FORCES)
+IN_WATER = (drag.FORCE, body_drag.FORCE, current.FORCE, added_mass.FORCE)
+"""Forces that a scenario without water has no channels of."""
 
 
 class Forces(NamedTuple):
@@ -54,12 +79,19 @@ class Forces(NamedTuple):
         cable_decay: what linear damping takes of the cable's velocity, 1/s.
         payload_damping: N s/m.
         profiles: of the loads along the cable, shape (loads, 5, n).
+        wet: whether there is water, or the sheave heaves.
+        drag, body_drag, moved, current: of the water.
     """
 
     cable_damping: float
     cable_decay: float
     payload_damping: float
     profiles: np.ndarray
+    wet: bool
+    drag: Drag
+    body_drag: BodyDrag
+    moved: Moved
+    current: Profile
 
 
 class EndWorks(Frame):
@@ -72,16 +104,28 @@ class EndWorks(Frame):
     work_payload_force = real()
     work_payload_damping = real()
     work_vessel = real()
+    work_body_drag = real()
+    work_body_current = real()
+    work_added_mass = real()
     power_payload_damping = real()
     power_vessel = real()
+    power_body_drag = real()
+    power_body_current = real()
+    power_added_mass = real()
 
 
 class Along(NamedTuple):
-    """A power, W, or its work, J, in each element of the cable, shape (n,) each; ``grid``: at each interface."""
+    """A power, W, or its work, J, in each element of the cable, shape (n,) each; ``grid``: at each interface.
+
+    ``sliding`` is a part of the tension's.
+    """
 
     cable_damping: np.ndarray
     cable_load: np.ndarray
     tension: np.ndarray
+    sliding: np.ndarray
+    drag: np.ndarray
+    current: np.ndarray
     grid: np.ndarray
 
 
@@ -91,6 +135,8 @@ class AlongWorks(Frame):
     work_cable_damping = real()
     work_cable_load = real()
     work_tension = real()
+    work_drag = real()
+    work_current = real()
     work_grid = real()
 
 
@@ -101,26 +147,61 @@ def make_forces(scenario: Scenario) -> Forces:
         cable_damping.rate(scenario),
         scenario.payload.damping,
         np.ascontiguousarray(to_elements(profiles(scenario))),
+        scenario.environment.water is not None or bool(scenario.environment.vessel_heave),
+        drag.make(scenario),
+        body_drag.make(scenario),
+        current.make(scenario),
+        make_profile(scenario.environment),
     )
 
 
 def make_along(elements: int) -> Along:
     """Nothing yet."""
-    along, grid_losses = np.zeros((3, elements)), np.zeros(elements + 1)
-    return Along(along[0], along[1], along[2], grid_losses)
+    rows = np.zeros((len(Along._fields) - 1, elements))
+    return Along(**dict(zip(Along._fields, (*rows, np.zeros(elements + 1)), strict=True)))
 
 
 @glue
-def along_cable(forces: Forces, cable: Cable, rate: np.ndarray, loads: np.ndarray) -> None:
+def flow_past(forces: Forces, cable: Cable, ends: Ends, water: np.ndarray, outside: Exogenous) -> None:
+    """The current's profile at the nodes, shape (5, n), as deep as they are now; worked out where that has changed."""
+    length, heave = outside.length, outside.heave
+    if forces.current.starts.size > 0 and (length != ends.current_length or heave != ends.current_heave):
+        profile_of_current.fill(forces.current, cable.above, water, length, heave)
+        ends.current_length, ends.current_heave = length, heave
+
+
+@glue
+def along_cable(
+    forces: Forces,
+    cable: Cable,
+    x: np.ndarray,
+    rate: np.ndarray,
+    loads: np.ndarray,
+    water: np.ndarray,
+    moment: Moment,
+    outside: Exogenous,
+) -> None:
     """Add the forces along the cable to the rates of a block, but for linear damping, which the step takes off."""
+    inertia, length, slip = cable.line_inertia, moment.length, moment.slip
     if loads.size > 0:
-        cable_load.add(forces.profiles, cable.line_density, rate, loads)
+        cable_load.add(forces.profiles, inertia, rate, loads)
+    if slip != 0.0 and forces.cable_decay != 0.0:
+        cable_damping.add_sliding(x, rate, -forces.cable_decay * slip / length)
+    if forces.drag.acts:
+        drag.add(forces.drag, inertia, x, rate, water, outside.current_factor, length, outside.sink_speed, slip)
+    if outside.current_rate != 0.0:
+        current.add(forces.moved, inertia, rate, water, outside.current_rate)
 
 
 @glue
-def on_payload(forces: Forces, ends: Ends) -> float:
+def on_payload(forces: Forces, ends: Ends, water: np.ndarray, outside: Exogenous) -> float:
     """Force on the ROV, N, besides the cable's pull and what pushes it by impulse."""
-    return payload_damping.force(forces.payload_damping, ends.tip_velocity)
+    found = payload_damping.force(forces.payload_damping, ends.tip_velocity)
+    if forces.wet:
+        there = water[4, water.shape[1] - 1]
+        found += body_drag.force(forces.body_drag, outside.current_factor * there - ends.tip_velocity)
+        found += forces.moved.body * outside.current_rate * there
+    return found
 
 
 @glue
@@ -131,41 +212,90 @@ def book_along(
     power: Along,
     work: Along,
     half: float,
+    moment: Moment,
     outside: Exogenous,
     last_relative_jerk: float,
     loads: np.ndarray,
+    water: np.ndarray,
 ) -> None:
     """Works along the cable over a step whose ``half`` is given, s, element by element; 0 after a jump.
 
     The tension works only while the winch acceleration changes, or did at the start of the step.
     """
-    length, net, jerk = outside.length, outside.net_gravity, outside.relative_jerk
+    length, jerk, slip, sinks = moment.length, outside.relative_jerk, moment.slip, outside.sink_speed
     if forces.cable_damping != 0.0:
-        cable_damping.book(forces.cable_damping, x, power.cable_damping, work.cable_damping, half, length)
+        cable_damping.book(forces.cable_damping, x, power.cable_damping, work.cable_damping, half, length, slip)
     if loads.size > 0:
         cable_load.book(forces.profiles, x, power.cable_load, work.cable_load, half, length, loads)
     if jerk != 0.0 or last_relative_jerk != 0.0:
-        tension.book(cable.hanging, cable.above, x, power.tension, work.tension, half, length, net, -0.5 * jerk)
+        tension.book_jerk(cable, x, power.tension, work.tension, half, length, moment.net, -0.5 * jerk)
+    if forces.wet:
+        tension.book_sliding(cable, x, power.sliding, work.sliding, half, moment, outside)
+        factor, change = outside.current_factor, outside.current_rate
+        current.begin(power.current, work.current, half)
+        if forces.drag.acts:
+            drag.book(
+                forces.drag, x, power.drag, work.drag, power.current, water, half, factor, length, sinks, slip
+            )  # fmt: skip
+        current.give(forces.moved, x, power.current, water, change, length)
+        current.end(power.current, work.current, half)
 
 
 @glue
-def book_at_ends(forces: Forces, cable: Cable, ends: Ends, works: EndWorks, half: float, outside: Exogenous) -> None:
+def book_at_ends(
+    forces: Forces,
+    cable: Cable,
+    ends: Ends,
+    works: EndWorks,
+    half: float,
+    moment: Moment,
+    outside: Exogenous,
+    water: np.ndarray,
+) -> None:
     """Works at ROV and vessel, ``half`` as in :func:`book_along`."""
     damped = payload_damping.power(forces.payload_damping, ends.tip_velocity)
     works.work_payload_damping += half * (works.power_payload_damping + damped)
     works.power_payload_damping = damped
-    top, velocity = tension_at(outside.length, outside.net_gravity, cable.hanging), outside.vessel_velocity
-    pulled = vessel.power(cable.line_density, top, ends.vessel_slope, outside.payout_speed, velocity)
+    top, enters = tension_at(moment.length, moment.net, moment.across), moment.speed - moment.slip
+    pulled = vessel.power(cable.line_inertia, top, ends.vessel_slope, enters, moment.vessel)
     works.work_vessel += half * (works.power_vessel + pulled)
     works.power_vessel = pulled
+    if forces.wet:
+        book_water_at_payload(forces, cable, ends, works, half, moment, outside, water)
+
+
+@glue
+def book_water_at_payload(
+    forces: Forces,
+    cable: Cable,
+    ends: Ends,
+    works: EndWorks,
+    half: float,
+    moment: Moment,
+    outside: Exogenous,
+    water: np.ndarray,
+) -> None:
+    """What the water does to the ROV, as :func:`book_at_ends`."""
+    there = water[4, water.shape[1] - 1]
+    flow, velocity = outside.current_factor * there, ends.tip_velocity
+    force = body_drag.force(forces.body_drag, flow - velocity)
+    dragged, given = force * (velocity - flow), force * flow
+    given += forces.moved.body * outside.current_rate * there * velocity
+    left = added_mass.power(cable, ends, moment, outside.sink_speed)
+    works.work_body_drag += half * (works.power_body_drag + dragged)
+    works.work_body_current += half * (works.power_body_current + given)
+    works.work_added_mass += half * (works.power_added_mass + left)
+    works.power_body_drag, works.power_body_current, works.power_added_mass = dragged, given, left
 
 
 @kernel
-def add_up(work: Along, out: AlongWorks) -> None:
-    """Sum the works along the cable from vessel to ROV."""
+def add_up(work: Along, ends: EndWorks, out: AlongWorks) -> None:
+    """Sum the works along the cable from vessel to ROV; the current's with what it gives to the ROV."""
     out.work_cable_damping = total(work.cable_damping)
     out.work_cable_load = total(work.cable_load)
-    out.work_tension = total(work.tension)
+    out.work_tension = total(work.tension) + total(work.sliding)
+    out.work_drag = total(work.drag)
+    out.work_current = total(work.current) + ends.work_body_current
     out.work_grid = total(work.grid)
 
 
@@ -183,3 +313,8 @@ def decays(cable: CableRecord, payload: Payload, environment: Environment) -> It
     for force in FORCES:
         if found := force.decay(cable=cable, payload=payload, environment=environment):
             yield found
+
+
+def dampings(scenario: Scenario, at: OperatingPoint, on: str) -> list[Any]:
+    """What every force ``on`` the "cable" (N s/m2) or the "payload" (N s/m) damps at an operating point."""
+    return [force.damping(scenario, at) for force in FORCES if force.on == on]

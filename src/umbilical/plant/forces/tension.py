@@ -8,26 +8,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
+from umbilical.plant.cable import Cable, Moment
 from umbilical.plant.elements import W0, W1, W2
+from umbilical.plant.exogenous import Exogenous
 from umbilical.plant.forces.force import Force
-from umbilical.relations.tension import Hanging, inertial_tension
+from umbilical.relations.tension import inertial_tension, sliding_rates
 
 
 @kernel
 def book(
-    hung: Hanging, above: np.ndarray, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float,
-    net_gravity: float, factor: float,
+    above: np.ndarray, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, factor: float,
+    foot: float, rise: float,
 ) -> None:  # fmt: skip
-    """``factor`` times int (m + rho (l - x)) (g - a) p^2 dx of every element, J, as its power.
+    """``factor`` times int (foot + rise (1 - sigma)) p^2 dx of every element, J, as its power.
 
-    That is the part of T p^2 which follows the winch's acceleration; what the water carries does not.
     The power at the end of a step, with that at its start, works for ``half`` the step; then it is the present one.
     After a jump ``half`` is 0: the new power takes the place of the old. ``above`` is 1 - sigma, shape (5, n).
     """
     n = power.size
-    foot = inertial_tension(0.0, net_gravity, hung)
-    rise = inertial_tension(length, net_gravity, hung) - foot
     scale = factor / (2.0 * n * length)
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     a0, a1, a2, a3, a4 = above[0], above[1], above[2], above[3], above[4]
@@ -37,6 +36,32 @@ def book(
         new = scale * (W0 * ends + W1 * inner + W2 * ((foot + rise * a2[e]) * x2[e] * x2[e]))
         work[e] += half * (power[e] + new)
         power[e] = new
+
+
+@glue
+def book_jerk(
+    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net: float,
+    factor: float,
+) -> None:  # fmt: skip
+    """``factor`` times int (m + rho (l - x)) (g - a) p^2 dx: the part of T p^2 that follows the winch's acceleration.
+
+    What the water carries does not.
+    """
+    foot = inertial_tension(0.0, net, cable.hanging)
+    rise = inertial_tension(length, net, cable.hanging) - foot
+    book(cable.above, x, power, work, half, length, factor, foot, rise)
+
+
+@glue
+def book_sliding(
+    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, moment: Moment, outside: Exogenous
+) -> None:
+    """What sinking changes beside the jerk: ``1/2 int (Tt_t + vb T_x) p^2``, by drag along the cable and added mass."""
+    foot, rise = sliding_rates(
+        moment.hung, cable.axial_drag, cable.coupling, moment.slip, moment.net, outside.sink_speed,
+        outside.sink_acceleration,
+    )  # fmt: skip
+    book(cable.above, x, power, work, half, moment.length, 0.5, foot, rise * moment.length)
 
 
 FORCE = Force("work_tension")

@@ -1,0 +1,59 @@
+"""The current at the nodes of the cable: a profile over depth, linear between given depths, times a factor of time."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.scenario.environment import Environment
+
+
+class Profile(NamedTuple):
+    """Speed at the first depth, m/s, and the pieces below it: their ends, m, and slopes, 1/s; none without a current.
+
+    Attributes:
+        surface: speed from the surface to the first depth, m/s.
+        starts, spans, slopes: of each piece, shape (pieces,).
+    """
+
+    surface: float
+    starts: np.ndarray
+    spans: np.ndarray
+    slopes: np.ndarray
+
+
+def make_profile(environment: Environment) -> Profile:
+    """The profile of a scenario's current."""
+    current = environment.water.current if environment.water else None
+    if current is None:
+        return Profile(0.0, np.zeros(0), np.zeros(0), np.zeros(0))
+    depths, speeds = np.array(current.depths), np.array(current.speeds)
+    spans = np.diff(depths)
+    return Profile(float(speeds[0]), depths[:-1].copy(), spans, np.diff(speeds) / spans)
+
+
+@kernel
+def fill(profile: Profile, above: np.ndarray, out: np.ndarray, length: float, heave: float) -> None:
+    """Speed of the water at the nodes, m/s, shape (5, n) as ``above``: 1 - sigma; a node is ``l sigma - heave`` deep.
+
+    A sum over the pieces of clipped lines, so that a row of nodes is worked out at once.
+    """
+    elements = out.shape[1]
+    for j in range(5):
+        row, share = out[j], above[j]
+        for e in range(elements):
+            row[e] = profile.surface
+        for k in range(profile.starts.size):
+            start, span, slope = profile.starts[k], profile.spans[k], profile.slopes[k]
+            for e in range(elements):
+                row[e] += slope * min(max(length * (1.0 - share[e]) - heave - start, 0.0), span)
+
+
+def speeds_at(environment: Environment, depths: np.ndarray) -> np.ndarray:
+    """The profile at any depths, m/s, same shape; zero without a current."""
+    current = environment.water.current if environment.water else None
+    if current is None:
+        return np.zeros(np.shape(depths))
+    return np.interp(depths, current.depths, current.speeds)

@@ -1,0 +1,66 @@
+"""What a current that changes with time does beside its drag: ``(rho_w A_c + rho_a) u_t`` on a metre of cable and
+``(A_h + W_FK) u_t`` on the ROV, Froude-Krylov force and added mass. Its work holds what drag gets from the current too.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.compile import kernel
+from umbilical.plant.elements import W0, W1, W2
+from umbilical.plant.forces.force import Force
+from umbilical.relations.water import in_water
+from umbilical.scenario.scenario import Scenario
+
+
+class Moved(NamedTuple):
+    """Water that a change of the current pulls along: of a metre of cable, kg/m, and of the ROV, kg."""
+
+    line: float
+    body: float
+
+
+def make(scenario: Scenario) -> Moved:
+    """Displaced and added masses."""
+    found = in_water(scenario.cable, scenario.payload, scenario.environment)
+    return Moved(found.displaced + found.added, found.body_displaced + found.body_added)
+
+
+@kernel
+def add(moved: Moved, inertia: float, rate: np.ndarray, water: np.ndarray, change: float) -> None:
+    """Add the acceleration to the rates of a block; ``change`` times ``water``, shape (5, n), is u_t, m/s2."""
+    n, factor = rate.shape[1] // 2, moved.line * change / inertia
+    for j in range(5):
+        for e in range(n):
+            rate[j, n + e] += factor * water[j, e]
+
+
+@kernel
+def begin(power: np.ndarray, work: np.ndarray, half: float) -> None:
+    """First half of the work of every element; its new power starts from nothing."""
+    for e in range(power.size):
+        work[e] += half * power[e]
+        power[e] = 0.0
+
+
+@kernel
+def give(moved: Moved, x: np.ndarray, power: np.ndarray, water: np.ndarray, change: float, length: float) -> None:
+    """``int (rho_w A_c + rho_a) u_t Wb`` of every element, W, on top of its new power."""
+    n = power.size
+    scale = moved.line * change * length / (2.0 * n)
+    for j in range(5):
+        weight = scale * (W0 if j == 0 or j == 4 else W1 if j == 1 or j == 3 else W2)
+        for e in range(n):
+            power[e] += weight * water[j, e] * x[j, n + e]
+
+
+@kernel
+def end(power: np.ndarray, work: np.ndarray, half: float) -> None:
+    """Second half of the work."""
+    for e in range(power.size):
+        work[e] += half * power[e]
+
+
+FORCE = Force("work_current")

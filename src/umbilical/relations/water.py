@@ -1,0 +1,72 @@
+"""What water does to cable and ROV, as the coefficients of Morison's formula.
+
+With the displaced mass ``rho_w A_c`` of a metre of cable, ``A_c = pi d^2/4``, the added mass is ``C_a rho_w A_c``, the
+drag across ``1/2 rho_w C_dn (1 + 2.1 A*) d |u_r| u_r`` and that along ``1/2 rho_w pi d C_dt |v| v``. The factor
+``1 + 2.1 A*`` is an assumption about a cable that vibrates in its own vortices at A* diameters.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any, NamedTuple
+
+STRUMMING = 2.1
+
+
+class InWater(NamedTuple):
+    """Coefficients, SI units; all zero without water.
+
+    Attributes:
+        displaced, added: mass of the displaced water and rho_a of a metre of cable, kg/m.
+        normal, tangential: drag of a metre of cable over the square of the speed, N s2/m3.
+        body_displaced, body_added, body_vertical: displaced mass, A_h and A_z of the ROV, kg.
+        body_linear: drag of the ROV over its speed, N s/m.
+        body_quadratic, body_axial: drag of the ROV across and along the cable over the square of the speed, N s2/m2.
+    """
+
+    displaced: float = 0.0
+    added: float = 0.0
+    normal: float = 0.0
+    tangential: float = 0.0
+    body_displaced: float = 0.0
+    body_added: float = 0.0
+    body_vertical: float = 0.0
+    body_linear: float = 0.0
+    body_quadratic: float = 0.0
+    body_axial: float = 0.0
+
+
+def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
+    """Coefficients from these sections of a scenario; a section without ``water`` has none."""
+    of_cable, of_body = getattr(cable, "water", None), getattr(payload, "water", None)
+    water = getattr(environment, "water", None)
+    found = InWater()
+    if of_cable is not None and water is not None:
+        diameter, dynamic = of_cable.diameter, 0.5 * water.density
+        displaced = water.density * pi * diameter**2 / 4.0
+        found = found._replace(
+            displaced=displaced,
+            added=of_cable.added_mass * displaced,
+            normal=dynamic * of_cable.normal_drag * (1.0 + STRUMMING * of_cable.strumming) * diameter,
+            tangential=dynamic * of_cable.tangential_drag * pi * diameter,
+        )
+    if of_body is not None:
+        found = found._replace(
+            body_displaced=of_body.displaced_mass,
+            body_added=of_body.added_mass,
+            body_vertical=of_body.vertical_added_mass,
+            body_linear=of_body.linear_drag,
+            body_quadratic=of_body.quadratic_drag,
+            body_axial=of_body.vertical_drag,
+        )
+    return found
+
+
+def line_inertia(cable: Any, payload: Any, environment: Any) -> float:
+    """M = rho + rho_a of a metre of cable across, kg/m."""
+    return cable.line_density + in_water(cable, payload, environment).added
+
+
+def payload_inertia(payload: Any) -> float:
+    """m + A_h of the ROV across, kg."""
+    return payload.mass + in_water(None, payload, None).body_added
