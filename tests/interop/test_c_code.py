@@ -32,6 +32,15 @@ SLOW = {
     "control.velocity_observer.time_constant": 0.02,
     "control.slope_observer.time_constant": 0.02,
 }
+STATION = {"control.law.station_gain": 0.05, "control.law.station": 0.3, "control.law.washout_time": 60.0}
+IN_WATER = {
+    "payload.wet_weight": 4000.0,
+    "environment.water": {"density": 1025.0},
+    "payload.water": {
+        "displaced_mass": 100.0, "added_mass": 150.0, "vertical_added_mass": 120.0, "linear_drag": 5.0,
+        "quadratic_drag": 200.0, "vertical_drag": 300.0,
+    },
+}  # fmt: skip
 IDEAL = {"sensors.ideal_velocity": True, "control.law.rates": "sensor"}
 CHANGED: dict[str, tuple[str, dict[str, Any]]] = {
     "a box of kappa": ("paper-adaptive", BOX),
@@ -41,6 +50,13 @@ CHANGED: dict[str, tuple[str, dict[str, Any]]] = {
     "rates from sensors": ("paper", IDEAL),
     "pd with a sensor": ("crosscheck-pd", {"sensors.ideal_velocity": True, "control.law.velocity": "sensor"}),
     "a believed ROV in water": ("paper", {"control.nominal.payload_mass": 450.0, "payload.wet_weight": 3000.0}),
+    "a station": ("paper", STATION),
+    "a station without washing out": (
+        "paper-adaptive",
+        {"control.law.station_gain": 0.05, "control.law.station": -0.2},
+    ),
+    "a slope washed out": ("paper", {"control.law.washout_time": 5.0}),
+    "a ROV in water with its drag": ("paper", STATION | IN_WATER | {"control.law.drag_feedforward": True}),
     "no disturbance observer": ("paper", {"control.disturbance_observer.enabled": False}),
 }
 

@@ -16,7 +16,7 @@ KNOWN: dict[str, frozenset[str]] = {
         " nominal",
         "NoControl": "kind",
         "ProportionalDerivative": "kind position_gain velocity_gain velocity",
-        "BoundaryLaw": "kind damping_gain slope_gain rates",
+        "BoundaryLaw": "kind damping_gain slope_gain rates station_gain station washout_time drag_feedforward",
         "HighGainObserver": "time_constant damping",
         "DisturbanceObserver": "enabled gain coupling",
         "KnownFactors": "method",
@@ -40,8 +40,6 @@ def check_known(scenario: Scenario) -> None:
         ScenarioError: no law, or a law, an observer or an option that the C does not have, each by its key.
     """
     problems = [*_unknown_model(scenario), *_unknown(scenario.control, "control")]
-    if scenario.payload.water is not None:
-        problems.append(_problem("payload.water", "given", "none", "export the controller of the ROV in air"))
     if scenario.control.law.kind == "none":
         problems.append(
             Problem(

@@ -233,6 +233,7 @@ static void start_observers(umb_state *state, const umb_readings *readings)
     int i;
     start_high_gain(&state->outer.velocity, readings->tip.tip_displacement);
     start_high_gain(&state->outer.slope, readings->tip.tip_slope);
+    state->outer.slope_mean = (s->station.washout_rate > 0.0) ? readings->tip.tip_slope : 0.0;
     start_disturbance(
         &s->disturbance, &state->outer.disturbance, s->payload_mass,
         (s->ideal_rates != 0) ? readings->tip.tip_velocity : 0.0);
@@ -267,13 +268,25 @@ static void update_outer(umb_state *state, const umb_readings *readings)
     if (s->law == PD) {
         out->thrust_command = pd_thrust(s->gains[0], s->gains[1], tip->tip_displacement, velocity);
     } else {
-        const double error = boundary_error(s->gains[1], velocity, tip->tip_slope);
+        const umb_station *station = &s->station;
+        const double away = tip->tip_displacement - station->place;
         const double measured = readings->winch.tip_tension;
         const double pull = (measured != 0.0)
             ? measured
             : tension(0.0, s->gravity - readings->winch.payout_acceleration, &s->hanging);
-        const double known = (pull * tip->tip_slope) + (s->payload_damping * velocity);
+        double lasting;
+        double error;
+        double known;
+        double changing;
+        double thrust;
         double estimate;
+        if (advance != 0) {
+            memory->slope_mean += station->washout_share * (tip->tip_slope - memory->slope_mean);
+        }
+        lasting = memory->slope_mean;
+        error = boundary_error(s->gains[1], velocity, tip->tip_slope - lasting) + (station->gain * away);
+        known = ((pull * tip->tip_slope) + (s->payload_damping * velocity))
+            + ((s->quadratic_drag * fabs(velocity)) * velocity);
         if (advance != 0) {
             advance_disturbance(
                 &s->disturbance, &memory->disturbance, s->payload_mass, velocity, error, known - out->thrust_command);
@@ -281,7 +294,9 @@ static void update_outer(umb_state *state, const umb_readings *readings)
         estimate = disturbance_estimate(&s->disturbance, &memory->disturbance, s->payload_mass, velocity);
         out->boundary_error = error;
         out->disturbance_estimate = estimate;
-        out->thrust_command = boundary_thrust(s->gains, s->payload_mass, error, slope_rate, known, estimate);
+        changing = slope_rate - (station->washout_rate * (tip->tip_slope - lasting));
+        thrust = boundary_thrust(s->gains, s->payload_mass, error, changing, known, estimate);
+        out->thrust_command = thrust - ((station->gain * s->payload_mass) * velocity);
     }
 }
 
