@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from umbilical.admission import load
+from umbilical.library import load
 from umbilical.control.contract import Command
 from umbilical.engine.episode import Episode
 from umbilical.engine.linear import linearise_plant
