@@ -17,6 +17,7 @@ import numpy as np
 from umbilical.frames import Frame, real
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
+from umbilical.plant.seaway import heaving
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.instants import slack
 from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
@@ -157,8 +158,8 @@ class Outside:
         self._scenario = scenario
         self._inputs = _empty(scenario, 0)
         environment = scenario.environment
-        self._sea = environment if environment.vessel_heave else None
-        self._wanted = WINCH + SINKING if environment.vessel_heave or environment.water else WINCH
+        self._sea = environment if heaving(environment) else None
+        self._wanted = WINCH + SINKING if heaving(environment) or environment.water else WINCH
 
     def sample(self, steps: Steps) -> Inputs:
         """All inputs at the given steps. The arrays are used again by the next call."""

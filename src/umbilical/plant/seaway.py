@@ -75,6 +75,12 @@ def along(environment: Environment) -> Signal:
     return environment.vessel_motion + sheave(environment).along if environment.sea else environment.vessel_motion
 
 
+def heaving(environment: Environment) -> Signal:
+    """All heave of the sheave that enters the string's tension: what is given, and what waves cause."""
+    given = environment.vessel_heave or ()
+    return given + sheave(environment).up if environment.sea and environment.sea.heave else given
+
+
 @lru_cache(maxsize=8)
 def _sheave(sea: SeaState, gravity: float) -> Sheave:
     vessel, point = vessel_of(sea.vessel, gravity), sheave_of(sea.vessel)

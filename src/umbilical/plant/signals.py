@@ -115,7 +115,7 @@ def vessel(environment: Environment, t: ArrayLike, side: Side = "right") -> tupl
 def heave(environment: Environment, t: ArrayLike, side: Side = "right") -> tuple[Array, Array, Array, Array]:
     """Heave of the sheave, m, up, and its three derivatives, faded in as :func:`vessel` is; arguments as there.
 
-    Only constants, sines and smooth tables have three derivatives.
+    Only constants, sines, waves and smooth tables have three derivatives.
 
     >>> from umbilical.scenario.environment import Environment
     >>> motion = ({"kind": "sine", "amplitude": 2.0, "frequency": 0.5},)
@@ -125,9 +125,10 @@ def heave(environment: Environment, t: ArrayLike, side: Side = "right") -> tuple
     """
     instants = np.asarray(t, dtype=np.float64)
     parts = np.zeros((4, *instants.shape))
-    for term in environment.vessel_heave or ():
+    given = seaway.heaving(environment)
+    for term in given:
         parts += [_higher(term, instants, order, side) for order in range(4)]
-    if environment.vessel_heave and environment.vessel_ramp > 0.0:
+    if given and environment.vessel_ramp > 0.0:
         fade = _fade(instants, environment.vessel_ramp, side)
         parts = np.array([sum(comb(k, j) * fade[j] * parts[k - j] for j in range(k + 1)) for k in range(4)])
     return parts[0], parts[1], parts[2], parts[3]
@@ -150,6 +151,8 @@ def _higher(term: Term, t: Array, order: int, side: Side) -> Array:
     if isinstance(term, Sine):
         phase = term.phase + 0.5 * np.pi * order
         return term.amplitude * term.frequency**order * np.sin(term.frequency * t + phase)
+    if isinstance(term, Waves):
+        return regular.waves(term, t, order)
     if isinstance(term, Table):
         curve = spline(term.times, term.values)
         thirds = 6.0 * curve.c[0][np.clip(passed(term.times, t, side) - 1, 0, len(term.times) - 2)]

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from umbilical.plant import signals, winch
+from umbilical.plant import seaway, signals, winch
 from umbilical.plant.signals import Array, Side
 from umbilical.relations import tension
 from umbilical.scenario.environment import Environment
@@ -59,7 +59,7 @@ def top_at(law: Winch, t: ArrayLike, side: Side = "right", environment: Environm
     ([450.0, 430.0], [10.0, 10.0])
     """
     motion = winch.evaluate(law, t, side)
-    if environment is None or not environment.vessel_heave:
+    if environment is None or not seaway.heaving(environment):
         return Top(*motion, np.zeros_like(motion.length), motion.speed, motion.acceleration, motion.jerk)
     heave = signals.heave(environment, t, side)
     sinks = (own - up for own, up in zip(motion[1:], heave[1:], strict=True))

@@ -51,4 +51,9 @@ class SeaState(Record):
     amplitudes: Literal["deterministic", "random"] = Field(
         default="deterministic", description="amplitudes by the spectrum, or drawn as those of a Gaussian sea are"
     )
+    heave: bool = Field(
+        default=False,
+        description="let the sheave's heave into the tension of the string, as of a cable that does not stretch; the rope "
+        "always has it",
+    )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the phases and random amplitudes")

@@ -11,6 +11,7 @@ import numpy as np
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant import winch as laws
 from umbilical.plant.exogenous import variation_of
+from umbilical.plant.seaway import heaving
 from umbilical.plant.top import top_within
 from umbilical.relations.tension import Hanging, hanging, net_gravity
 from umbilical.relations.water import in_water, line_inertia, payload_inertia
@@ -114,7 +115,7 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
     linear = "the proof takes every damping as linear; drag grows with the square of the speed"
     moves = "the proof has one mass and one tension of a cable that slides; added mass and drag along it are another"
     still, cure = isinstance(scenario.winch, ConstantLength), "take it to 0 for a certificate, and judge it by margins"
-    heave, dragged = bool(scenario.environment.vessel_heave), found.tangential + found.body_axial > 0.0
+    heave, dragged = bool(heaving(scenario.environment)), found.tangential + found.body_axial > 0.0
     moved = found.added + found.body_vertical > 0.0
     holds = "V3 holds no distance from a station, and no slope that is washed out"
     law = scenario.control.law

@@ -13,6 +13,7 @@ from umbilical.plant import signals
 from umbilical.plant import winch as laws
 from umbilical.plant.checks import seas
 from umbilical.plant.checks.timeline import signals_of_the_environment, tables_of_the_winch
+from umbilical.plant.seaway import heaving
 from umbilical.plant.signals import table_jumps
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
 from umbilical.relations.tension import (
@@ -30,6 +31,7 @@ from umbilical.scenario.environment import Environment, GaussianShape, InitialSh
 from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.signals import Bell, Pulse, Sine, Step, Table
+from umbilical.scenario.signals import Waves as WaveTerm
 from umbilical.scenario.winch import Cosine, Winch
 
 _SHORTEST, _LONGEST = 1.0, 2e4
@@ -53,9 +55,11 @@ def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | Non
 
 def sampled_top(winch: Winch, environment: Environment, duration: float) -> tuple[np.ndarray, Top] | None:
     """The same with the heave of the sheave; None also where that is no smooth function yet."""
-    if not environment.vessel_heave:
+    if any(isinstance(finding, Problem) for finding in seas.systems(environment)):
+        return None
+    if not heaving(environment):
         return _sampled_top(_hashed(winch), None, duration)
-    rough = any(isinstance(term, Step | Pulse | Bell) for term in environment.vessel_heave)
+    rough = any(isinstance(term, Step | Pulse | Bell) for term in heaving(environment))
     if rough or any(isinstance(f, Problem) for f in signals_of_the_environment(environment, duration)):
         return None
     return _sampled_top(_hashed(winch), _hashed(environment), duration)
@@ -80,8 +84,9 @@ def _sampled_top(winch: Winch, environment: Environment | None, duration: float)
 
 def _samples(environment: Environment | None, duration: float) -> int:
     """Even samples of a run: enough for each turn of the heave."""
-    terms = environment.vessel_heave or () if environment else ()
-    fastest = max((term.frequency for term in terms if isinstance(term, Sine)), default=0.0)
+    terms = heaving(environment) if environment else ()
+    regular = [max(term.frequencies) for term in terms if isinstance(term, WaveTerm)]
+    fastest = max([term.frequency for term in terms if isinstance(term, Sine)] + regular, default=0.0)
     turns = fastest * duration / (2.0 * np.pi)
     return int(max(_EVEN_SAMPLES, min(_SAMPLES_PER_TURN * turns, _MOST_SAMPLES)))
 
@@ -114,21 +119,29 @@ def tension(
     bound = slack_acceleration(_possible(motion.length), environment.gravity, hung)
     worst = int(np.argmax(motion.sink_acceleration - bound))
     if not motion.sink_acceleration[worst] < bound[worst]:
-        heaves = bool(environment.vessel_heave) and _stays_taut(winch, duration, environment, cable, payload)
+        heaves = bool(heaving(environment)) and _stays_taut(winch, duration, environment, cable, payload)
         drags = f", sinking at {motion.sink_speed[worst]:.4g} m/s" if environment.water else ""
         yield Problem(
-            "environment.vessel_heave" if heaves else _ACCELERATION_KEY.get(winch.law, "winch"),
+            _heave_key(environment) if heaves else _ACCELERATION_KEY.get(winch.law, "winch"),
             f"an acceleration of {amount(motion.sink_acceleration[worst], 'm/s2')} at {t[worst]:.6g} s{drags}",
             f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
             "the tension, the weight below a point less its mass times the acceleration"
             f"{' and less its drag' if drags else ''}, must stay above 0: a cable cannot push",
-            "a calmer sea, slower paying out, or a full model of the cable" if heaves else "pay out more gently",
+            'a calmer sea, slower paying out, or model = "rope", which knows a slack cable'
+            if heaves
+            else "pay out more gently",
         )
+
+
+def _heave_key(environment: Environment) -> str:
+    return "environment.vessel_heave" if environment.vessel_heave else "environment.sea"
 
 
 def _stays_taut(winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload) -> bool:
     """Whether the winch alone, without the heave, keeps the cable taut."""
-    return not any(tension(winch, duration, environment.model_copy(update={"vessel_heave": None}), cable, payload))
+    return not any(
+        tension(winch, duration, environment.model_copy(update={"vessel_heave": None, "sea": None}), cable, payload)
+    )
 
 
 def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Hanging:

@@ -77,10 +77,22 @@ def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
 
 
 def heave_has_its_model(environment: Environment, model: str) -> Iterator[Finding]:
-    """The string of this version does not heave: what that leaves out is told."""
-    if environment.sea is not None and model != "rope" and _sound(environment) and sheave(environment).up:
+    """What becomes of the heave is told: left out, in the tension without the cable's stretch, or all of it."""
+    if (sea := environment.sea) is None or not _sound(environment) or not sheave(environment).up:
+        return
+    if model == "rope" and sea.heave:
+        reason = "the rope always heaves; the key is for the string's tension"
+        yield Problem("environment.sea.heave", "true", 'left out where model = "rope"', reason, "leave it out")
+    elif sea.heave:
         yield Notice(
-            "environment.sea", 'the sheave\'s heave is left out: the string does not know it (model = "rope" does)'
+            "environment.sea.heave",
+            "heave enters the tension as of a cable that does not stretch: too little where waves are shorter than 2.5 "
+            'axial periods of cable and body (`umbilical operate` names them; model = "rope" stretches)',
+        )
+    elif model != "rope":
+        yield Notice(
+            "environment.sea",
+            'the sheave\'s heave is left out of the tension (environment.sea.heave, or model = "rope")',
         )
 
 

@@ -44,6 +44,7 @@ from umbilical.plant.forces.current import Moved
 from umbilical.plant.forces.drag import Drag
 from umbilical.plant.forces.force import Decay, OperatingPoint
 from umbilical.plant.layout import to_elements
+from umbilical.plant.seaway import heaving
 from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable as CableRecord
@@ -147,7 +148,7 @@ def make_forces(scenario: Scenario) -> Forces:
         cable_damping.rate(scenario),
         scenario.payload.damping,
         np.ascontiguousarray(to_elements(profiles(scenario))),
-        scenario.environment.water is not None or bool(scenario.environment.vessel_heave),
+        scenario.environment.water is not None or bool(heaving(scenario.environment)),
         drag.make(scenario),
         body_drag.make(scenario),
         current.make(scenario),
