@@ -53,7 +53,6 @@ class SeaState(Record):
     )
     heave: bool = Field(
         default=False,
-        description="let the sheave's heave into the tension of the string, as of a cable that does not stretch; the rope "
-        "always has it",
+        description="let heave into the tension of the string, as of a cable without stretch; the rope has it",
     )
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the phases and random amplitudes")

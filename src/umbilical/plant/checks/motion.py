@@ -127,9 +127,7 @@ def tension(
             f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
             "the tension, the weight below a point less its mass times the acceleration"
             f"{' and less its drag' if drags else ''}, must stay above 0: a cable cannot push",
-            'a calmer sea, slower paying out, or model = "rope", which knows a slack cable'
-            if heaves
-            else "pay out more gently",
+            'a calmer sea, or model = "rope", which knows a slack cable' if heaves else "pay out more gently",
         )
 
 
@@ -139,9 +137,8 @@ def _heave_key(environment: Environment) -> str:
 
 def _stays_taut(winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload) -> bool:
     """Whether the winch alone, without the heave, keeps the cable taut."""
-    return not any(
-        tension(winch, duration, environment.model_copy(update={"vessel_heave": None, "sea": None}), cable, payload)
-    )
+    calm = environment.model_copy(update={"vessel_heave": None, "sea": None})
+    return not any(tension(winch, duration, calm, cable, payload))
 
 
 def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Hanging:
