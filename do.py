@@ -162,6 +162,13 @@ def _first_run(python: str, wheel: Path, pins: Path, environment: Path) -> Itera
     yield _call_in(elsewhere, (ours, "-c", FIRST_RUN), {})
 
 
+def docs() -> Iterable[bool]:
+    """The site in out/docs, from pages, docstrings and examples; every warning is an error."""
+    yield call(
+        PYTHON, "-m", "sphinx", "-W", "--keep-going", "-n", "-q", "-b", "html", ROOT / "docs", ROOT / "out" / "docs"
+    )
+
+
 def mutants() -> Iterable[bool]:
     """Whether the tests notice small changes of the source: a sample, on which see docs/mutants.md."""
     yield call(PYTHON, "tools/mutants.py")
@@ -178,6 +185,7 @@ TASKS: dict[str, Callable[[], Iterable[bool]]] = {
     "check": check,
     "thorough": thorough,
     "package": package,
+    "docs": docs,
     "mutants": mutants,
     "bench": bench,
 }

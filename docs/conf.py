@@ -1,0 +1,59 @@
+"""How Sphinx makes the site of the Markdown pages, the docstrings and the gallery: `python3 do.py docs`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+
+import gallery_figures  # noqa: E402
+
+import umbilical  # noqa: E402
+
+project, author, copyright = "Umbilical", "the Umbilical maintainers", "the Umbilical maintainers"
+version = release = umbilical.__version__
+extensions = [
+    "myst_parser",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
+    "mathtext",
+]
+html_theme = "furo"
+html_title = f"Umbilical {version}"
+html_copy_source = False
+exclude_patterns = [
+    "_ext",
+    "gallery/*.ipynb",
+    "gallery/*.py",
+    "gallery/*.md5",
+    "gallery/*.json",
+    "sg_execution_times.rst",
+]
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 4
+suppress_warnings = ["config.cache"]  # the gallery's settings hold a function
+nitpick_ignore_regex = [
+    # Types of other packages, and of ours that are not public: named, without a page to link to.
+    (r"py:.*", r"(?!umbilical\.\w+$).*"),
+]
+autodoc_typehints = "signature"
+autodoc_member_order = "bysource"
+napoleon_use_rtype = False
+napoleon_use_ivar = True  # attributes are described once, in the class
+
+sphinx_gallery_conf = {
+    "examples_dirs": str(HERE.parent / "examples" / "gallery"),
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    "image_scrapers": (gallery_figures.scrape,),
+    "capture_repr": (),
+    "download_all_examples": False,
+    "show_memory": False,
+    "show_signature": False,
+    "abort_on_example_error": True,
+    "remove_config_comments": True,
+}
