@@ -53,6 +53,7 @@ sphinx_gallery_conf = {
     "capture_repr": (),
     "download_all_examples": False,
     "show_memory": False,
+    "write_computation_times": False,  # its page would load scripts from elsewhere
     "show_signature": False,
     "abort_on_example_error": True,
     "remove_config_comments": True,

@@ -5,6 +5,8 @@ Your own law against the paper's
 A controller is a class with a period and two methods; what it logs becomes a channel of the run.
 """
 
+from matplotlib.figure import Figure
+
 import umbilical
 
 
@@ -24,7 +26,7 @@ class Damper:
 
 scenario = umbilical.load("paper", {"duration": 20.0})
 paper, own = umbilical.simulate(scenario), umbilical.simulate(scenario, Damper())
-axes = umbilical.plot_tip([paper, own])
+figure = Figure(figsize=(3.5, 2.6), layout="constrained")  # one column of a page
+axes = umbilical.plot_tip([paper, own], ax=figure.add_subplot())
 axes.legend(["the paper's law", "the class above"], frameon=False, loc="upper left")
-axes.figure.set_size_inches(3.5, 2.6)  # one column of a page
 print(own["controller_velocity"].attrs["long_name"], float(abs(own["controller_velocity"]).max()), "m/s")

@@ -94,7 +94,7 @@ class Arrays:
 
     data_vars: dict[str, tuple]
     coords: dict[str, tuple]
-    attrs: dict[str, str | int | float]
+    attrs: dict[str, Any]
 
     def __post_init__(self) -> None:
         for name, (dims, values, *_) in self.data_vars.items():
