@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from umbilical.library import load
 from umbilical.control.contract import Command
 from umbilical.engine.episode import Episode
 from umbilical.engine.linear import linearise_plant
 from umbilical.engine.simulate import simulate
+from umbilical.library import load
 
 PARTS = ("the built-in controller", "controllers in Python", "linearised models")
 

@@ -6,7 +6,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
 
 from umbilical.sea.spectrum import Spectrum, shape
 
@@ -89,6 +88,8 @@ def _split(spectrum: Spectrum, shares: np.ndarray) -> np.ndarray:
 @lru_cache(maxsize=64)
 def _cumulative(peakedness: float) -> np.ndarray:
     """Share of the energy below each of the ratios w/wp in the table."""
+    from scipy.integrate import cumulative_trapezoid  # slow to import
+
     energy = cumulative_trapezoid(shape(_RATIOS, peakedness), _RATIOS, initial=0.0)
     tail = 5.0 / 64.0 * _RATIOS[-1] ** -4.0  # of x^-5, all that is left there
     return energy / (energy[-1] + tail)

@@ -14,7 +14,6 @@ from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-from scipy.integrate import quad
 
 Period = Literal["peak", "zero_crossing", "mean"]
 """Tp = 2 pi/wp, Tz = 2 pi sqrt(m0/m2), T1 = 2 pi m0/m1."""
@@ -105,4 +104,6 @@ def _integral(order: int, peakedness: float) -> float:
     """Integral of x^n times the shape; pieces meet at the peak, where the width jumps."""
     pieces = ((0.05, 1.0), (1.0, 4.0), (4.0, np.inf))  # exp(-1.25/0.05^4) is 0 in doubles
     options = {"epsabs": 0.0, "epsrel": 1e-10, "limit": 200}
+    from scipy.integrate import quad  # slow to import
+
     return sum(quad(lambda x: x**order * shape(x, peakedness), a, b, **options)[0] for a, b in pieces)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import newton
 
 
 def wave_number(omega: np.ndarray | float, gravity: float = 9.81, water_depth: float = np.inf) -> np.ndarray:
@@ -22,6 +21,8 @@ def wave_number(omega: np.ndarray | float, gravity: float = 9.81, water_depth: f
     if np.isinf(water_depth):
         return deep
     start = deep / np.sqrt(np.tanh(deep * water_depth))  # Eckart: within 5 %
+    from scipy.optimize import newton  # slow to import
+
     return np.asarray(newton(lambda k: gravity * k * np.tanh(k * water_depth) - omega**2, start))
 
 

@@ -15,8 +15,6 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from umbilical.plant.elements import NODES
 from umbilical.plant.rope.rates import evaluate
@@ -48,6 +46,8 @@ def hanging_shape(
     Raises:
         ValueError: nothing pulls at the lower end, or no depth of the body meets the sheave.
     """
+    from scipy.integrate import solve_ivp  # slow to import
+    from scipy.optimize import brentq  # slow to import
 
     def along(s: float, y: np.ndarray) -> np.ndarray:
         pull = y[:3]
