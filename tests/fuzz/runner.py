@@ -106,18 +106,18 @@ def _filled(word: str, folder: str) -> str:
 def _counted() -> Iterator[list[int]]:
     """Counts the simulations that are begun."""
     begun: list[int] = []
-    original = simulate.set_up
+    original = simulate.make_model
 
     def noted(*given: Any, **named: Any) -> Any:
         found = original(*given, **named)
         begun.append(1)
         return found
 
-    simulate.set_up = noted
+    simulate.make_model = noted
     try:
         yield begun
     finally:
-        simulate.set_up = original
+        simulate.make_model = original
 
 
 @contextmanager

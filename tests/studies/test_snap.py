@@ -39,7 +39,7 @@ def test_a_calm_sea_does_not() -> None:
 def test_the_fit_finds_the_distribution_it_was_drawn_from() -> None:
     """Of 20 samples of 40 maxima the 95 % interval covers the true level in 16 or more."""
     exact = gumbel_r.ppf(0.99, 1e5, 5e3)
-    samples = gumbel_r.rvs(1e5, 5e3, size=(20, 40), random_state=3)
+    samples = np.asarray(gumbel_r.rvs(1e5, 5e3, size=(20, 40), random_state=3))
     fits = [module._extreme(sample, 0) for sample in samples]
     covered = sum(fit is not None and fit.exceeded.low <= exact <= fit.exceeded.high for fit in fits)
     assert covered >= 16

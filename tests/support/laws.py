@@ -9,7 +9,8 @@ import numpy as np
 
 from umbilical.analysis.laws import READINGS, root_slope
 from umbilical.analysis.linear import Linear
-from umbilical.control.cascade import BOUNDARY, PD, Motors, Outer
+from umbilical.control.cascade import Motors, Outer
+from umbilical.control.outer.table import BOUNDARY, PD
 from umbilical.relations.formulas import MotorConstants
 from umbilical.relations.tension import net_gravity, tension
 

@@ -169,7 +169,7 @@ def _extreme(tension: np.ndarray, seed: int) -> Extreme | None:
         return None
     location, scale = gumbel_r.fit(tension)
     dice = np.random.default_rng(seed)
-    drawn = gumbel_r.rvs(location, scale, size=(_RESAMPLED, tension.size), random_state=dice)
+    drawn = np.asarray(gumbel_r.rvs(location, scale, size=(_RESAMPLED, tension.size), random_state=dice))
     again = [gumbel_r.ppf(0.99, *gumbel_r.fit(sample)) for sample in drawn]
     low, high = np.quantile(again, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
     value = float(gumbel_r.ppf(0.99, location, scale))

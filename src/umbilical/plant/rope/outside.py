@@ -78,7 +78,7 @@ def _faded(heave: Heave, t: Array, ramp: float) -> tuple[Array, Array]:
         return value, rate
     q = np.clip(t / ramp, 0.0, 1.0)
     fade, fade_rate = q**3 * (10.0 - 15.0 * q + 6.0 * q * q), 30.0 * q * q * (1.0 - q) ** 2 / ramp
-    return fade * value, fade * rate + fade_rate * value
+    return np.asarray(fade * value, dtype=float), np.asarray(fade * rate + fade_rate * value, dtype=float)
 
 
 def still_water(rope: Rope) -> Water:
