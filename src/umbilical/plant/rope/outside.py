@@ -72,13 +72,13 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
 def _faded(heave: Heave, t: Array, ramp: float) -> tuple[Array, Array]:
     """Heave and its rate, faded in as the rest of the vessel's motion is."""
     turning = np.exp(1j * np.multiply.outer(t, heave.omega))
-    value = (turning @ heave.amplitude).real
-    rate = (turning @ (1j * heave.omega * heave.amplitude)).real
+    value = np.asarray((turning @ heave.amplitude).real, dtype=float)
+    rate = np.asarray((turning @ (1j * heave.omega * heave.amplitude)).real, dtype=float)
     if ramp == 0.0:
         return value, rate
     q = np.clip(t / ramp, 0.0, 1.0)
     fade, fade_rate = q**3 * (10.0 - 15.0 * q + 6.0 * q * q), 30.0 * q * q * (1.0 - q) ** 2 / ramp
-    return np.asarray(fade * value, dtype=float), np.asarray(fade * rate + fade_rate * value, dtype=float)
+    return fade * value, fade * rate + fade_rate * value
 
 
 def still_water(rope: Rope) -> Water:
