@@ -44,6 +44,7 @@ def assert_same(found: Linear, expected: Linear, tolerance: float) -> None:
             {"control.law.slope_gain": 7.0, "control.slope_observer.damping": 0.8, "payload.damping": 30.0},
         ),
         ("paper", {"control.disturbance_observer.enabled": False}),
+        ("paper", {"control.law.station_gain": 0.1, "control.law.washout_time": 200.0}),
         ("paper", {"control.law.rates": "sensor", "sensors.ideal_velocity": True}),
         ("paper-pd", {}),
     ],

@@ -18,11 +18,11 @@ from umbilical.relations.tension import net_gravity, tension
 def outer_law(outer: Outer) -> Linear:
     """From the four readings at the ROV to the commanded thrust alpha_c, eqs. (17), (19), (21), (22), (66).
 
-    States are pi1, pi2, chi1, chi2, phi and the alpha_c that was commanded last.
+    States are pi1, pi2, chi1, chi2, phi, z_w and the alpha_c that was commanded last; y_r is 0.
     """
-    states = 6
+    states = 7
     unit = np.eye(states + len(READINGS))
-    pi, chi, phi, command = unit[:2], unit[2:4], unit[4], unit[5]
+    pi, chi, phi, lasting, command = unit[:2], unit[2:4], unit[4], unit[5], unit[6]
     displacement, slope, velocity, slope_rate = unit[states:]
     pi = _advanced(outer.velocity_observer.form, pi, displacement)
     chi = _advanced(outer.slope_observer.form, chi, slope)
@@ -31,16 +31,19 @@ def outer_law(outer: Outer) -> Linear:
         slope_rate = chi[1] / outer.slope_observer.time_constant
     if outer.law == PD:
         thrust = -outer.gains[0] * displacement - outer.gains[1] * velocity
-        return _from_rows(np.vstack([pi, chi, phi, thrust]), thrust)
+        return _from_rows(np.vstack([pi, chi, phi, lasting, thrust]), thrust)
     assert outer.law == BOUNDARY
     (damping_gain, beta), mass, d = outer.gains, outer.payload_mass, outer.disturbance
-    error = velocity + beta * slope
+    kappa, _, rate, share = outer.station
+    lasting = lasting + share * (slope - lasting)
+    error = velocity + beta * (slope - lasting) + kappa * displacement
+    changing = slope_rate - rate * (slope - lasting)
     known = tension(0.0, net_gravity(outer.gravity), outer.hanging) * slope + outer.payload_damping * velocity
     drive = d.coupling * error + known - command - d.gain * mass * velocity
     phi = d.decay * phi + (1.0 - d.decay) * drive
     estimate = (phi + d.gain * mass * velocity) * d.enabled
-    thrust = -damping_gain * error - beta * mass * slope_rate + known - estimate
-    return _from_rows(np.vstack([pi, chi, phi, thrust]), thrust)
+    thrust = -damping_gain * error - mass * (beta * changing + kappa * velocity) + known - estimate
+    return _from_rows(np.vstack([pi, chi, phi, lasting, thrust]), thrust)
 
 
 def motor_law(motors: Motors, constants: MotorConstants, speed: float, demand: float, spread: float = 0.0) -> Linear:

@@ -23,6 +23,7 @@ from umbilical.errors import ControllerError, MissingPartnerError, Problem, Scen
 from umbilical.interop.picture import draw_cable
 from umbilical.library import load
 from umbilical.plant.signals import evaluate
+from umbilical.relations.tension import weight_of_mass
 from umbilical.run import Status
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.scenario import Scenario
@@ -290,7 +291,7 @@ def usual_thrust_scale(scenario: Scenario) -> float:
         return capability
     times = np.linspace(0.0, scenario.duration, _FORCES_SAMPLED)
     force = float(np.abs(evaluate(scenario.environment.payload_force, times)).max())
-    return max(2.0 * force, 0.01 * scenario.payload.mass * scenario.environment.gravity)
+    return max(2.0 * force, 0.01 * weight_of_mass(scenario.payload.mass, scenario.environment.gravity))
 
 
 def _voltage_scales(scenario: Scenario, thrust: float, given: float | None) -> Array:

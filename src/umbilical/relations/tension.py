@@ -135,6 +135,11 @@ def mass_of_weight(weight: Real, gravity: Real) -> Real:
     return weight / gravity
 
 
+def weight_of_mass(mass: Real, gravity: Real) -> Real:
+    """What a mass weighs in air, N."""
+    return mass * gravity
+
+
 @formula
 def inertial_tension(distance: Real, net: Real, hung: Hanging) -> Real:
     """(m + rho s) (g - a), N: the tension in air, and the part of T that follows the acceleration."""

@@ -13,6 +13,7 @@ from umbilical.plant.rope.assemble import at_rest, cable_data, rope_of, rope_ste
 from umbilical.plant.rope.outside import still_water
 from umbilical.plant.top import top_at
 from umbilical.relations.instants import apart
+from umbilical.relations.tension import weight_of_mass
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
@@ -84,8 +85,9 @@ def weights(scenario: Scenario) -> Iterator[Finding]:
         )
     data = cable_data(scenario)
     area = pi * data.diameter**2 / 4.0
-    derived = (data.density - 1025.0 * area) * scenario.environment.gravity
-    if data.diameter and abs(derived - data.weight) > _OFF * data.density * scenario.environment.gravity:
+    gravity = scenario.environment.gravity
+    derived = weight_of_mass(data.density - 1025.0 * area, gravity)
+    if data.diameter and abs(derived - data.weight) > _OFF * weight_of_mass(data.density, gravity):
         yield Notice(
             "rope.diameter",
             f"{data.density:g} kg/m and {data.diameter:g} m in sea water weigh {derived:.4g} N/m, not the stated "

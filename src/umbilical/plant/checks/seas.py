@@ -14,6 +14,7 @@ from umbilical.scenario.ship import RaoShip
 from umbilical.scenario.signals import Waves
 from umbilical.sea.rao import RaoVessel, vessel_of
 from umbilical.sea.rao_checks import sea_problems, table_problems, told
+from umbilical.sea.waves import wave_number
 
 STEEPEST = 1.0 / 7.0
 """Hs over the deep-water wavelength of the peak period."""
@@ -37,7 +38,7 @@ def systems(environment: Environment) -> Iterator[Finding]:
         if not 2.0 <= peak <= 30.0:
             yield Problem(f"{key}.{given[0]}", f"a peak period of {amount(peak, 's')}", "from 2 to 30 s",
                           "shorter waves are ripples, longer ones tides", "seconds, and the right one")  # fmt: skip
-        length = environment.gravity * peak**2 / (2.0 * np.pi)
+        length = 2.0 * np.pi / float(wave_number(2.0 * np.pi / peak, environment.gravity))
         if system.significant_height > STEEPEST * length:
             yield Problem(f"{key}.significant_height", amount(system.significant_height, "m"),
                           f"at most {STEEPEST * length:.4g} m, a seventh of the wavelength at the peak",

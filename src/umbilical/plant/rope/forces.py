@@ -25,7 +25,7 @@ def accelerate_dry(rope: Rope, state: RopeState, length: float) -> None:
     """DW/Dt at the nodes into the second half of ``rate``, without water."""
     n = state.stretch.shape[1]
     per, loss = 1.0 / (rope.density * length), rope.damping / rope.density
-    g = rope.weight / rope.density
+    falling = rope.weight / rope.density
     for j in range(5):
         gx, gy, gz = state.gradient[j, 6 * n : 7 * n], state.gradient[j, 7 * n : 8 * n], state.gradient[j, 8 * n :]
         wx, wy = state.now[j, 3 * n : 4 * n], state.now[j, 4 * n : 5 * n]
@@ -33,7 +33,7 @@ def accelerate_dry(rope: Rope, state: RopeState, length: float) -> None:
         for e in range(n):
             ax[e] = per * gx[e] - loss * wx[e]
             ay[e] = per * gy[e] - loss * wy[e]
-            az[e] = per * gz[e] - g
+            az[e] = per * gz[e] - falling
 
 
 @kernel
