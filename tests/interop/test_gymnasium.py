@@ -162,6 +162,7 @@ def test_it_shows_the_cable() -> None:
         ({"mode": "torque"}, "mode"),
         ({"thrust_scale": -1.0}, "thrust_scale"),
         ({"voltage_scale": float("inf")}, "voltage_scale"),
+        ({"arm": "proposed"}, "arm"),
     ],
 )
 def test_wrong_arguments_are_refused(options: dict[str, Any], key: str) -> None:
@@ -178,6 +179,8 @@ def test_other_refusals() -> None:
     with pytest.raises(ScenarioError, match=r"step\.period"):
         gymnasium.make(TIP, scenario="paper", step=0.00015)
     env = make()
+    with pytest.raises(ScenarioError, match=r"options\.change = "):
+        env.reset(seed=0, options={"change": {"payload.mass": 550.0}})
     env.reset(seed=0)
     with pytest.raises(ControllerError, match="not finite"):
         env.unwrapped.step(np.full(1, np.nan))

@@ -136,6 +136,19 @@ def test_a_rope_and_a_string_share_a_page(slack: Run, free: Run) -> None:
     assert film(page.player(free, slack))["views"] == 2
 
 
+def test_signals_of_two_runs_meet_by_what_they_are(slack: Run, run: Run) -> None:
+    found = film(page.player(slack, run))
+    rope, string = ([panel["title"] for panel in reel["panels"]] for reel in found["runs"])
+    assert found["panels"] == [*rope, *(title for title in string if title not in rope)]
+    assert (rope[0], set(string) - set(rope)) == (string[0], {"motor voltage [V]"} - set(rope))
+
+
+def test_two_runs_of_one_name_are_told_apart(run: Run) -> None:
+    reels = film(page.player(run, run))["runs"]
+    assert [reel["name"] for reel in reels] == ["paper-stuck (1)", "paper-stuck (2)"]
+    assert [reel["status"].split(":")[0] for reel in reels] == [reel["name"] for reel in reels]
+
+
 def test_a_run_shows_itself_in_a_notebook(run: Run, free: Run) -> None:
     shown = umbilical.show(run, free)
     assert repr(shown).startswith("<plays paper-stuck and crosscheck-none: ")

@@ -62,6 +62,7 @@ EFFORT = 0.01
 FAILURE = BOUND**2
 """Cost per second of all the time that a run which diverged did not reach: more than any other way through it."""
 _TRIES = 20
+_UNKNOWN = ("there is no such option here, and none is ever ignored", 'options={"changes": {key: value}}')
 _FORCES_SAMPLED = 2001
 
 
@@ -124,6 +125,11 @@ class Tip(gymnasium.Env[Array, Array]):
         arm: str | None = None,
         render_mode: str | None = None,
     ) -> None:
+        if arm is not None and not study:
+            reason = "an arm is one of a study's"
+            raise ScenarioError(
+                [Problem("arm", arm, "none without a study", reason, "give the study too")], "environment"
+            )
         self._draws = Draws(load_study(study) if isinstance(study, str) else study) if study else None
         self._arm = 0 if self._draws is None else _arm_number(self._draws.study, arm)
         self.scenario = _scenario(scenario, self._draws, self._arm)
@@ -145,7 +151,12 @@ class Tip(gymnasium.Env[Array, Array]):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Array, dict[str, Any]]:
         """Begin an episode; see the class for what seed and options do."""
         super().reset(seed=seed)
-        self._begin((options or {}).get("changes", {}))
+        options = options or {}
+        if unknown := [
+            Problem(f"options.{k}", str(v), "changes", *_UNKNOWN) for k, v in options.items() if k != "changes"
+        ]:
+            raise ScenarioError(unknown, "environment")
+        self._begin(options.get("changes", {}))
         return self._observation(), self._info()
 
     def step(self, action: Array) -> tuple[Array, float, bool, bool, dict[str, Any]]:

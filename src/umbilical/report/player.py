@@ -32,6 +32,7 @@ SLACK = 1.0
 """N; a rope is drawn slack where less pulls."""
 _MOST_EVENTS = 400
 _ENDS = {"at the vessel": "top", "at the ROV": "end"}
+_PLACE = "ROV position [m]"
 _PANELS = (
     ("ROV displacement [m]", {"": "tip_displacement"}),
     ("thrust [N]", {"commanded": "thrust_command", "delivered": "thrust"}),
@@ -60,9 +61,11 @@ def player(run: Run, compare: Run | None = None) -> str:
     if short := [r.scenario.name for r in runs if r["time"].size < 2]:
         raise ValueError(f"{', '.join(short)}: the run ended before there was anything to play")
     rate = min(RATE, _affordable_rate(runs))
+    reels = _told_apart([_reel(r, rate) for r in runs])
     film = {
         "views": 1 + any(map(_in_space, runs)),
-        "runs": [_reel(r, rate) for r in runs],
+        "runs": reels,
+        "panels": list(dict.fromkeys(panel["title"] for reel in reels for panel in reel["panels"])),
         "events": [event for r in runs for event in _events(r)],
         "thinned": f"The run is long: thinned to {rate:.2g} frames a second." if rate < RATE else "",
     }
@@ -124,6 +127,19 @@ def _reel(run: Run, rate: float) -> dict[str, Any]:
             for title, lines in _lines(run)
         ],
     }
+
+
+def _told_apart(reels: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Runs of one name get a number; where a string meets a rope, both places of the ROV share a panel."""
+    if len({reel["name"] for reel in reels}) < len(reels):
+        for number, reel in enumerate(reels, 1):
+            reel |= {
+                key: reel[key].replace(reel["name"], f"{reel['name']} ({number})", 1) for key in ("status", "name")
+            }
+    places = {reel["panels"][0]["title"] for reel in reels}
+    for reel in reels:
+        reel["panels"][0]["title"] = _PLACE if _PLACE in places else reel["panels"][0]["title"]
+    return reels
 
 
 def _in_space(run: Run) -> bool:
@@ -199,7 +215,7 @@ def _lines(run: Run) -> list[tuple[str, dict[str, np.ndarray]]]:
     found = [(title, {name: run[channel].values for name, channel in lines.items()}) for title, lines in _PANELS]
     if _in_space(run):
         x, y, _ = np.moveaxis(run["body_position"].values, 1, 0)
-        found[0] = ("ROV position [m]", {"x": x, "y": y})
+        found[0] = (_PLACE, {"x": x, "y": y})
         found.insert(1, ("tension [N]", {name: run[f"{key}_tension"].values for name, key in _ENDS.items()}))
     if "motor_voltage" in run.data and run["motor_voltage"].sizes.get("motor", 0):
         motors = run["motor_voltage"]
