@@ -93,8 +93,8 @@ def test_it_is_the_run_of_simulate(mode: str) -> None:
     expected = simulate(env.unwrapped.scenario, Replay(commands))
     assert info["time"] == pytest.approx(2.0)
     assert info["tip_displacement"] == expected["tip_displacement"].values[-1]
-    for name in ("mid_peak", "thrust_peak", "motor_speed_peak"):
-        assert env.unwrapped.episode.metrics()[name] == expected.metrics[name], name
+    for name in ("tip_peak", "tip_end", "mid_peak", "thrust_peak", "motor_speed_peak"):
+        assert info["metrics"][name] == expected.metrics[name], name
 
 
 def test_observations_are_readings_and_never_the_truth() -> None:

@@ -162,7 +162,7 @@ class Episode:
         return self._run
 
     def metrics(self) -> dict[str, float]:
-        """Metrics so far, without those of the power balance."""
+        """Metrics so far, without those of the power balance; the last sample counts once :meth:`end` has taken it."""
         return self._model.metrics()
 
     def save(self) -> Mark:

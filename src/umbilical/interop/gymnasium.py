@@ -235,7 +235,10 @@ class Tip(gymnasium.Env[Array, Array]):
     def _info(self) -> dict[str, Any]:
         """Time, the true displacement of the ROV, and the metrics so far."""
         info = {"time": self.episode.time, "tip_displacement": truth(self.episode).tip_displacement}
-        return info | ({"metrics": self.episode.metrics()} if self.episode.over else {})
+        if not self.episode.over:
+            return info
+        self.episode.end()  # the last sample counts, too
+        return info | {"metrics": self.episode.metrics()}
 
 
 _READINGS = ("tip_displacement", "tip_slope")
