@@ -145,14 +145,22 @@ def test_fmpy_simulates_it_and_compiles_it_anew(tmp_path: Path) -> None:
     path = to_fmu(load("paper"), tmp_path / "c.fmu").path
     simulated = tool("simulate", path, "--stop-time", "0.1", "--output-file", tmp_path / "a.csv")
     assert (tmp_path / "a.csv").exists(), simulated
-    with zipfile.ZipFile(path) as archive:
-        before = archive.read("binaries/linux64/umbilical_paper.so")
+    without_binaries(path)
     tool("compile", path)
     with zipfile.ZipFile(path) as archive:
-        assert archive.read("binaries/linux64/umbilical_paper.so") != before
+        assert "binaries/linux64/umbilical_paper.so" in archive.namelist()
     scenario = load("paper", {"duration": 0.2})
     expected, found = simulate(scenario), simulate(scenario, Slave(path, tmp_path / "unpacked"))
     np.testing.assert_array_equal(found["motor_voltage"].values, expected["motor_voltage"].values)
+
+
+def without_binaries(path: Path) -> None:
+    """Leave an FMU with its sources alone."""
+    with zipfile.ZipFile(path) as archive:
+        kept = {name: archive.read(name) for name in archive.namelist() if not name.startswith("binaries/")}
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, data in kept.items():
+            archive.writestr(name, data)
 
 
 def test_the_same_scenario_gives_the_same_bytes(tmp_path: Path) -> None:

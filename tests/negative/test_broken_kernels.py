@@ -31,12 +31,6 @@ class Edit(NamedTuple):
 
 
 EDITS = {
-    "the rope's cable that comes in at the sheave": Edit(
-        "plant/rope/rates.py",
-        "scale = 2.0 * n * LIFT * speed / length",
-        "scale = 0.0 * speed",
-        ("rope, momentum, paying out",),
-    ),
     "the projection of the rope's added mass": Edit(
         "plant/rope/forces.py",
         "more = (total - bracket) * along - total * across",
