@@ -33,6 +33,7 @@ from umbilical.contents import (
 from umbilical.errors import FileError, OutputError, ScenarioError
 from umbilical.formats import EXPORTS, RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, Quantity
+from umbilical.stored_numbers import METRIC, wrong_times, wrong_values
 
 if TYPE_CHECKING:
     import xarray
@@ -47,18 +48,6 @@ CONVENTION = (
 SECOND_DIMENSION = {name: q.over for name, q in CHANNELS.items() if q.over}
 """What a channel depends on besides time; a channel not named here depends on time alone."""
 
-PEAKS = {
-    "tip_displacement": "tip_peak",
-    "slope": "slope_peak",
-    "thrust": "thrust_peak",
-    "motor_speed": "motor_speed_peak",
-    "motor_voltage": "motor_voltage_peak",
-    "motor_current": "motor_current_peak",
-}
-"""Channels and the metric that none of their samples exceeds, for metrics are of every control sample."""
-LARGEST_STORED = 1e100
-"""No number of a completed run is larger."""
-
 
 def dimensions(name: str) -> tuple[str, ...]:
     """Dimensions of a channel, time first.
@@ -69,7 +58,6 @@ def dimensions(name: str) -> tuple[str, ...]:
     return ("time", *SECOND_DIMENSION.get(name, "").split())
 
 
-_METRIC = "metric_"
 _LOGGED = "controller_"
 _OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
 
@@ -169,8 +157,8 @@ class Run:
     @property
     def metrics(self) -> dict[str, float]:
         """Single numbers by name, in SI units; their words are :data:`umbilical.quantities.METRICS`."""
-        names = [str(name).removeprefix(_METRIC) for name in self._kept.data_vars if str(name).startswith(_METRIC)]
-        return {name: float(self._kept[_METRIC + name]) for name in names if name in METRICS}
+        names = [str(name).removeprefix(METRIC) for name in self._kept.data_vars if str(name).startswith(METRIC)]
+        return {name: float(self._kept[METRIC + name]) for name in names if name in METRICS}
 
     def _cut(self) -> tuple[str, ...]:
         """What must be said of a part of a run: its metrics are not the part's own."""
@@ -294,7 +282,7 @@ def assemble(
     """
     variables = {name: _channel(name, values) for name, values in channels.items()}
     variables |= {_LOGGED + name: (("time",), values, _OF_CONTROLLER) for name, values in (logged or {}).items()}
-    variables |= {_METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
+    variables |= {METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
     ending = {
         "status": status.name,
         "reason": reason,
@@ -363,7 +351,7 @@ def open_run(path: str | os.PathLike[str]) -> Run:
         scenario = parse(data.attrs["scenario"], f"{path}: the scenario inside")
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
-    refuse(_wrong_times(data, scenario.duration), str(path))
+    refuse(wrong_times(data, scenario.duration, over=data.attrs["status"] == Status.COMPLETED.name), str(path))
     return Run(data, scenario)
 
 
@@ -391,34 +379,13 @@ def _wrong_arrays(data: xarray.Dataset) -> Iterator[str]:
     for name in map(str, data.variables):
         if name in CHANNELS:
             yield wrong_array(data[name], dimensions(name), "f")
-        elif name.startswith(_METRIC):
+        elif name.startswith(METRIC):
             yield wrong_array(data[name], (), "f")
         elif name in data.sizes:
             yield wrong_array(data[name], (name,), "fiu")
     if data.attrs["status"] == Status.COMPLETED.name:
-        yield from _wrong_values(data)
+        yield from wrong_values(data)
     for name in sorted({"time", "sigma"} & set(data.coords)):
         places = data[name].values
         if places.dtype.kind == "f" and not (np.isfinite(places).all() and (np.diff(places) > 0.0).all()):
             yield f"{name}: must be finite and increase"
-
-
-def _wrong_values(data: xarray.Dataset) -> Iterator[str]:
-    """What no run has that was completed: infinite numbers, metrics that are none, samples beyond their own metric."""
-    for name in map(str, data.data_vars):
-        largest = np.abs(data[name].values).max(initial=0.0) if data[name].dtype.kind == "f" else 0.0
-        metric = _METRIC + PEAKS.get(name, "")
-        if largest > LARGEST_STORED or (name.startswith(_METRIC) and np.isnan(largest)):
-            yield f"{name}: reaches {largest:g}, which no completed run does"
-        elif metric in data.variables and not largest <= (limit := float(data[metric])) * (1.0 + 1e-9):
-            yield f"{name}: reaches {largest:g}, and {PEAKS[name]} is {limit:g}"
-
-
-def _wrong_times(data: xarray.Dataset, duration: float) -> Iterator[str]:
-    """What of the instants contradicts the end of the run, or that the scenario's duration, s."""
-    end, last = float(data.attrs["end_time"]), data["time"].values[-1:]
-    over = data.attrs["status"] == Status.COMPLETED.name
-    if end > duration * (1.0 + 1e-9) or (over and end < duration * (1.0 - 1e-9)):
-        yield f"end_time = {end:g}: {data.attrs['status']}, and the scenario inside lasts {duration:g} s"
-    elif (last > end * (1.0 + 1e-9)).any():
-        yield f"time: goes on to {last[0]:g} s, and end_time is {end:g} s"
