@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-SHORT = ("snap", "rope-work-class", "--seeds", "2", "--set", "duration=20", "--set", "rope.elements=4")
+SHORT = ("snap", "work-class-3000m", "--seeds", "2", "--set", "duration=20", "--set", "rope.elements=4")
 
 
 @pytest.mark.parametrize(("risk", "code", "word"), [("1.0", 0, "within"), ("0.001", 7, "more seeds are needed")])

@@ -12,13 +12,14 @@ from umbilical.studies import snap as module
 from umbilical.studies.snap import snap
 
 ROUGH = {
-    "duration": 60.0, "winch.length": 1000.0, "rope.sea.significant_height": 7.0, "rope.sea.peak_period": 9.0,
-    "environment.vessel_ramp": 10.0, "rope.sea.components": 20, "rope.elements": 4,
+    "duration": 60.0, "winch.length": 1000.0, "environment.sea.systems.1.significant_height": 7.0,
+    "environment.sea.systems.1.peak_period": 9.0, "environment.vessel_ramp": 10.0, "rope.elements": 4,
+    "environment.sea.systems.1.components": 20, "control.period": 0.05, "grid.step": 0.05,
 }  # fmt: skip
 
 
 def test_a_rough_sea_snaps_and_threads_change_nothing() -> None:
-    scenario = load("rope-work-class", ROUGH)
+    scenario = load("work-class-3000m", ROUGH)
     one, two = snap(scenario, 6), snap(scenario, 6, workers=2)
     assert one.completed.all()
     assert one.snaps.sum() > 0
@@ -30,7 +31,7 @@ def test_a_rough_sea_snaps_and_threads_change_nothing() -> None:
 
 
 def test_a_calm_sea_does_not() -> None:
-    calm = snap(load("rope-work-class", ROUGH | {"rope.sea.significant_height": 0.2}), 2)
+    calm = snap(load("work-class-3000m", ROUGH | {"environment.sea.systems.1.significant_height": 0.2}), 2)
     assert calm.snaps.sum() == 0
     assert calm.extreme is None
     assert "no snap" in calm.summary()
@@ -46,9 +47,9 @@ def test_the_fit_finds_the_distribution_it_was_drawn_from() -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "key"), [({"model": "string"}, "model"), ({"rope.sea": None}, "rope.sea")], ids=["string", "no sea"]
+    ("changes", "key"), [({"model": "string"}, "model"), ({"environment.sea": None}, "environment.sea")]
 )
 def test_what_says_nothing_is_refused(changes: dict[str, object], key: str) -> None:
     with pytest.raises(ScenarioError) as caught:
-        snap(load("rope-work-class", ROUGH).replace(changes), 2)
+        snap(load("work-class-3000m", ROUGH).replace(changes), 2)
     assert caught.value.problems[0].key == key

@@ -10,6 +10,8 @@ import pytest
 
 from umbilical.plant.rope import model, outside
 from umbilical.plant.rope.records import Rope
+from umbilical.plant.seaway import Sheave
+from umbilical.scenario.environment import Environment
 
 Break = Callable[[pytest.MonkeyPatch], None]
 
@@ -53,10 +55,10 @@ def winch_that_runs_backwards(patch: pytest.MonkeyPatch) -> None:
 
 def three_times_the_heave(patch: pytest.MonkeyPatch) -> None:
     """Of a vessel in an irregular sea."""
-    right = outside.heave_of
+    right = outside.sheave
 
-    def wrong(*arguments: Any) -> outside.Heave:
-        heave = right(*arguments)
-        return heave._replace(amplitude=3.0 * heave.amplitude)
+    def wrong(environment: Environment) -> Sheave:
+        found = right(environment)
+        return found._replace(up=3 * found.up)
 
-    patch.setattr(outside, "heave_of", wrong)
+    patch.setattr(outside, "sheave", wrong)

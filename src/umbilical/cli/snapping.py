@@ -30,8 +30,8 @@ def snap(
 
     \b
     examples
-      umbilical snap rope-work-class --seeds 20
-      umbilical snap rope-work-class --set winch.length=1500 --set rope.sea.significant_height=4 --risk 0.05
+      umbilical snap work-class-3000m --seeds 20
+      umbilical snap work-class-3000m --set winch.length=1500 --risk 0.05
     """
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies.snap import snap as study

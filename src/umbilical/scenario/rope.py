@@ -1,4 +1,4 @@
-"""What only the rope knows: stretch, water, the body in space, and a vessel that heaves."""
+"""What only the rope knows: stretch, water, the body in space, and a vessel that moves in it."""
 
 from __future__ import annotations
 
@@ -22,27 +22,6 @@ class WaterLevel(Record):
     height: float = quantity("water_height", le=0.0, ge=-2e4, reason="0 is the surface", cure="metres, negative below")
     x: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s, not knots")
     y: float = quantity("water_speed", 0.0, ge=-10.0, le=10.0, reason="a current", cure="m/s, not knots")
-
-
-class Sea(Record):
-    """Irregular waves of JONSWAP that heave the sheave by the closed form of a box at zero speed."""
-
-    significant_height: float = quantity(
-        "significant_height", ge=0.0, le=20.0, reason="a sea", cure="metres, four standard deviations"
-    )
-    peak_period: float = quantity(
-        "peak_period", ge=2.0, le=30.0, reason="a sea", cure="the period at the peak of the spectrum, e.g. 8 s"
-    )
-    peakedness: float = quantity("peakedness", 3.3, ge=1.0, le=7.0, reason="1 to 7 are seas", cure="3.3")
-    heading: float = quantity(
-        "wave_heading", 2.356194490192345, ge=-6.3, le=6.3, reason="an angle", cure="radians: 0 following, pi head sea"
-    )
-    components: int = Field(default=100, ge=20, le=2000, description="waves of equal energy")
-    ship_length: float = quantity("ship_length", gt=0.0, le=500.0, reason="a ship", cure="in metres, at the waterline")
-    breadth: float = quantity("ship_breadth", gt=0.0, le=100.0, reason="a ship", cure="in metres, at the waterline")
-    draught: float = quantity("ship_draught", gt=0.0, le=30.0, reason="a ship", cure="in metres, at the waterline")
-    block_coefficient: float = quantity("block_coefficient", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9")
-    sheave_forward: float = quantity("sheave_forward", 0.0, ge=-500.0, le=500.0, reason="pitch", cure="negative aft")
 
 
 class Rope(Record):
@@ -72,9 +51,8 @@ class Rope(Record):
     body_drag: Vector = Field(default=(0.0, 0.0, 0.0), **words("body_drag"))
     body_displaced: float = quantity("body_displaced", 0.0, ge=0.0, le=1e8, reason="a mass", cure="kg of sea water")
     current: tuple[WaterLevel, ...] = Field(default=(), max_length=200, description="velocity of the water, downwards")
-    sea: Sea | None = None
     vessel_across: Signal = _signal("motion of the vessel in the direction y", "m")
-    vessel_heave: Signal = _signal("motion of the vessel in the direction z, beside the sea's", "m")
+    vessel_heave: Signal = _signal("motion of the vessel in the direction z, beside what environment.sea gives", "m")
     force_across: Signal = _signal("external force on the body in the direction y", "N")
     force_up: Signal = _signal("external force on the body in the direction z", "N")
     thrust_directions: tuple[Number, ...] | None = Field(default=None, **words("thrust_direction"))

@@ -123,10 +123,12 @@ def snap(
         ScenarioError: the scenario is refused, is no rope, or its seeds change nothing.
     """
     _check(scenario, seeds)
-    chosen = scenario.seed + np.arange(seeds)
+    sea = scenario.environment.sea
+    first = sea.seed if sea else 0
+    chosen = first + np.arange(seeds)
     done, rows = 0, []
     with ThreadPoolExecutor(workers) as pool:
-        for row in pool.map(lambda seed: _one(scenario.replace({"seed": int(seed)})), chosen):
+        for row in pool.map(lambda seed: _one(scenario.replace({"environment.sea.seed": int(seed)})), chosen):
             rows.append(row)
             done += 1
             if progress:
@@ -135,7 +137,7 @@ def snap(
     good = completed > 0.0
     return SnapStudy(
         scenario, chosen, good, tension, snaps.astype(int), largest, weights_of(scenario)[1], speed,
-        share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], scenario.seed),
+        share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], first),
     )  # fmt: skip
 
 
@@ -143,9 +145,9 @@ def _check(scenario: Scenario, seeds: int) -> None:
     wrong = None
     if scenario.model != "rope":
         wrong = Problem("model", f'"{scenario.model}"', '"rope"', "a string never goes slack", 'set model = "rope"')
-    elif scenario.rope is None or scenario.rope.sea is None:
+    elif scenario.environment.sea is None:
         reason = "without a sea every seed gives the same motion of the vessel"
-        wrong = Problem("rope.sea", "left out", "a section", reason, "significant_height, peak_period and the ship")
+        wrong = Problem("environment.sea", "left out", "a section", reason, "systems of waves and a vessel")
     elif seeds < 1:
         wrong = Problem("seeds", str(seeds), "1 or more", "there is nothing to say of none", "20, or 100 for a tail")
     if wrong:

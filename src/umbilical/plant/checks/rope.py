@@ -23,7 +23,6 @@ _STIFF, _WEAK = 100.0, 10.0
 """EA over the largest static load: below the first a stretch of 1 % is told, below the second refused."""
 _SECONDS = 2.5e-7
 """Of computing for a node in a step, roughly."""
-_STEEPEST = 1.0 / 7.0
 _OFF = 0.05
 """Share of the weight in air by which stated and derived weight in water may differ before it is told."""
 
@@ -96,7 +95,7 @@ def weights(scenario: Scenario) -> Iterator[Finding]:
 
 
 def water(scenario: Scenario) -> Iterator[Finding]:
-    """Levels of the current differ, and the sea is not steeper than a sea can be."""
+    """Levels of the current differ."""
     rope = section(scenario)
     heights = [level.height for level in rope.current]
     for number, height in enumerate(heights, start=1):
@@ -107,16 +106,6 @@ def water(scenario: Scenario) -> Iterator[Finding]:
                 "another height than the levels before it",
                 "the water has one velocity at a height",
                 "one level for each height",
-            )
-    if rope.sea is not None:
-        steepness = 2.0 * pi * rope.sea.significant_height / (9.81 * rope.sea.peak_period**2)
-        if steepness > _STEEPEST:
-            yield Problem(
-                "rope.sea.significant_height",
-                amount(rope.sea.significant_height, "m"),
-                f"at most a seventh of the wavelength, {_STEEPEST * 9.81 * rope.sea.peak_period**2 / (2 * pi):.4g} m",
-                "steeper waves break",
-                "a lower sea or a longer period",
             )
 
 

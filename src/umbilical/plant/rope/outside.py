@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,9 +13,8 @@ from umbilical.plant.rope.records import STAGES, RopeOutside, Water
 from umbilical.plant.seaway import sheave
 from umbilical.plant.signals import Array, Side
 from umbilical.plant.top import top_at, vessel_at
-from umbilical.scenario.rope import Rope, Sea
+from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
-from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point
 
 
 class RopeInputs(NamedTuple):
@@ -35,22 +33,6 @@ class RopeInputs(NamedTuple):
     water: Water
 
 
-class Heave(NamedTuple):
-    """Heave of the sheave as a sum of waves: complex amplitudes, m, shape (waves,), at angular frequencies, rad/s."""
-
-    omega: Array
-    amplitude: Array
-
-
-@lru_cache(maxsize=8)
-def heave_of(sea: Sea, seed: int, gravity: float) -> Heave:
-    """The sea's heave; the seed of a scenario sets the phases."""
-    waves = discretise(Spectrum(sea.significant_height, sea.peak_period, sea.peakedness), sea.components, seed=seed)
-    ship = BoxVessel(sea.ship_length, sea.breadth, sea.draught, sea.block_coefficient, gravity)
-    answer = heave_of_point(ship, waves.omega, sea.heading, sea.sheave_forward, 0.0)
-    return Heave(waves.omega, waves.amplitude * answer * np.exp(1j * waves.phase))
-
-
 def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Any, Any]:
     """Place, m, and velocity, m/s, of the sheave at instants of any shape: shape (..., 3)."""
     instants, rope, environment = np.asarray(t, dtype=float), scenario.rope or Rope(), scenario.environment
@@ -61,24 +43,7 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
         for signal in (rope.vessel_across + waves.across, rope.vessel_heave + waves.up)
     ]
     place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
-    if rope.sea is not None:
-        sea: Any = rope.sea  # frozen records have a hash, which type checkers cannot see
-        heave, rate = _faded(heave_of(sea, scenario.seed, environment.gravity), instants, environment.vessel_ramp)
-        place[..., 2] += heave
-        speed[..., 2] += rate
     return place, speed
-
-
-def _faded(heave: Heave, t: Array, ramp: float) -> tuple[Array, Array]:
-    """Heave and its rate, faded in as the rest of the vessel's motion is."""
-    turning = np.exp(1j * np.multiply.outer(t, heave.omega))
-    value = np.asarray((turning @ heave.amplitude).real, dtype=float)
-    rate = np.asarray((turning @ (1j * heave.omega * heave.amplitude)).real, dtype=float)
-    if ramp == 0.0:
-        return value, rate
-    q = np.clip(t / ramp, 0.0, 1.0)
-    fade, fade_rate = q**3 * (10.0 - 15.0 * q + 6.0 * q * q), 30.0 * q * q * (1.0 - q) ** 2 / ramp
-    return fade * value, fade * rate + fade_rate * value
 
 
 def still_water(rope: Rope) -> Water:
