@@ -11,7 +11,7 @@ from umbilical import load, simulate
 pytestmark = pytest.mark.nojit
 
 
-@pytest.mark.parametrize("preset", ["rope-work-class", "observation-300m", "work-class-payout", "paper-adaptive"])
+@pytest.mark.parametrize("preset", ["work-class-3000m", "observation-300m", "work-class-payout", "paper-adaptive"])
 def test_the_rope_starts_at_rest_and_stays_finite(preset: str) -> None:
     run = simulate(load(preset, {"duration": 0.05, "model": "rope", "rope.elements": 3}))
     assert run.status.name == "COMPLETED"

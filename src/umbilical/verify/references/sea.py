@@ -40,6 +40,10 @@ class Hanging(NamedTuple):
     masses: int = 2000
 
 
+WORK_CLASS = Hanging(2.6e7, 5.412, 17000.0, 3000.0, 600)
+"""The work-class umbilical with its body, added mass included."""
+
+
 def heave_of_masses(cable: Hanging, damping: float, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Heave of the body, tension at the body and at the sheave per metre of heave, by a march from the body upwards."""
     step = cable.length / cable.masses
@@ -115,7 +119,7 @@ def work_class_statistics(height: float, depth: float, heading: float) -> dict[s
     gain = 3.3 ** np.exp(-(((omega - peak) / (width * peak)) ** 2) / 2.0)
     sea = 5.0 / 16.0 * height**2 * peak**4 / omega**5 * np.exp(-1.25 * (peak / omega) ** 4) * gain
     heave = sea * peakedness_factor(3.3) * ship_heave(omega, heading, 10.0) ** 2 * 0.002
-    cable, velocity = Hanging(2.6e7, 5.412, 17000.0, depth, 600), 0.5
+    cable, velocity = WORK_CLASS._replace(length=depth), 0.5
     for _ in range(100):
         body, end, top = heave_of_masses(cable, 4500.0 * np.sqrt(8.0 / np.pi) * velocity, omega)
         last, velocity = velocity, float(np.sqrt(np.sum(heave * abs(omega * body) ** 2)))
@@ -130,3 +134,33 @@ def work_class_statistics(height: float, depth: float, heading: float) -> dict[s
         "end": float(np.sqrt(zeroth)),
         "slack": float(-np.expm1(-events)),
     }
+
+
+def masses_in_waves(
+    cable: Hanging, drag: float, omega: np.ndarray, waves: np.ndarray, window: tuple[float, float], masses: int = 40
+) -> np.ndarray:
+    """Rms of the tension at top and body, N, and of the body's heave, m, between two instants; leapfrog.
+
+    Quadratic drag. The sheave heaves by the real part of ``sum(waves exp(i omega t))``, m, faded in over a minute.
+    """
+    step, dt, block = cable.length / masses, 0.02, 5000
+    spring, mass = cable.stiffness / step, np.full(masses, cable.line_density * step)
+    half = 0.5 * cable.line_density * step
+    mass[-1] = half + cable.mass
+    place, speed, rows = np.zeros(masses), np.zeros(masses), []
+    for begin in range(0, round(window[1] / dt), block):
+        t = dt * (begin + np.arange(block))
+        q = np.clip(t / 60.0, 0.0, 1.0)
+        turning = waves * np.exp(1j * np.outer(t, omega))
+        top, lift = q * q * (3.0 - 2.0 * q) * turning.sum(axis=1).real, -(turning @ omega**2).real
+        for i in range(block):
+            pull = spring * (np.concatenate([top[i : i + 1], place[:-1]]) - place)
+            net = pull.copy()
+            net[:-1] -= pull[1:]
+            net[-1] -= drag * abs(speed[-1]) * speed[-1]
+            rate = net / mass
+            speed += dt * rate
+            place += dt * speed
+            if i % 10 == 0 and t[i] >= window[0]:
+                rows.append((pull[0] + half * lift[i], pull[-1] - half * rate[-1], place[-1]))
+    return np.std(rows, axis=0)
