@@ -152,7 +152,7 @@ def masses_in_waves(
         t = dt * (begin + np.arange(block))
         q = np.clip(t / 60.0, 0.0, 1.0)
         turning = waves * np.exp(1j * np.outer(t, omega))
-        top, lift = q * q * (3.0 - 2.0 * q) * turning.sum(axis=1).real, -(turning @ omega**2).real
+        top, lift = q * q * (3.0 - 2.0 * q) * np.real(turning.sum(axis=1)), -np.real(turning @ omega**2)
         for i in range(block):
             pull = spring * (np.concatenate([top[i : i + 1], place[:-1]]) - place)
             net = pull.copy()
