@@ -50,6 +50,7 @@ CHECKS: tuple[Check, ...] = (
     seas.vessel,
     seas.repetition,
     seas.heave_has_its_model,
+    seas.orbital_motion,
     seas.regular_waves,
     motion.vessel_at_the_start,
     equipment.motors_are_there,

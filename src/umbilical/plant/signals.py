@@ -129,12 +129,12 @@ def heave(environment: Environment, t: ArrayLike, side: Side = "right") -> tuple
     for term in given:
         parts += [_higher(term, instants, order, side) for order in range(4)]
     if given and environment.vessel_ramp > 0.0:
-        fade = _fade(instants, environment.vessel_ramp, side)
-        parts = np.array([sum(comb(k, j) * fade[j] * parts[k - j] for j in range(k + 1)) for k in range(4)])
+        faded = fade(instants, environment.vessel_ramp, side)
+        parts = np.array([sum(comb(k, j) * faded[j] * parts[k - j] for j in range(k + 1)) for k in range(4)])
     return parts[0], parts[1], parts[2], parts[3]
 
 
-def _fade(t: Array, ramp: float, side: Side) -> Array:
+def fade(t: Array, ramp: float, side: Side) -> Array:
     """The fade of :func:`vessel` and its three derivatives, shape (4, ...)."""
     q = np.clip(t / ramp, 0.0, 1.0)
     runs = reached(t, 0.0, side) & ~reached(t, ramp, side)

@@ -55,4 +55,8 @@ class SeaState(Record):
         default=False,
         description="let heave into the tension of the string, as of a cable without stretch; the rope has it",
     )
+    orbital_below: float | None = measured(
+        "m", "depth under the surface from which waves move the water; left out, they do not", None, ge=0.0, le=50.0,
+        reason="above the keel and in a moonpool the ship shelters the cable", cure="the draught; 0 beside the ship",
+    )  # fmt: skip
     seed: int = Field(default=0, ge=0, le=2**63 - 1, description="seed of the phases and random amplitudes")

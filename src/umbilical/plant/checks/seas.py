@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.errors import Problem
+from umbilical.plant.orbital import moves_the_water
 from umbilical.plant.seaway import directions_of, sheave, spectrum_of, waves_of
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
@@ -95,6 +96,13 @@ def heave_has_its_model(environment: Environment, model: str) -> Iterator[Findin
             "environment.sea",
             'the sheave\'s heave is left out of the tension (environment.sea.heave, or model = "rope")',
         )
+
+
+def orbital_motion(environment: Environment) -> Iterator[Finding]:
+    """No model of the cable lets waves move its water yet."""
+    if moves_the_water(environment):
+        yield Problem("environment.sea.orbital_below", "given", "left out",
+                      "no cable feels the orbital motion of waves yet", "leave it out")  # fmt: skip
 
 
 def regular_waves(environment: Environment) -> Iterator[Finding]:

@@ -1,0 +1,75 @@
+"""Orbital motion from its tables against the sum of Airy's waves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from umbilical.plant import orbital
+from umbilical.plant.seaway import waves_of
+from umbilical.plant.signals import fade
+from umbilical.scenario.document import freeze
+from umbilical.scenario.environment import Environment
+from umbilical.sea.waves import orbital_velocity, wave_number
+
+pytestmark = pytest.mark.nojit
+
+SHIP = {"kind": "box", "length": 93.0, "breadth": 20.0, "draught": 6.6, "block_coefficient": 0.75}
+SYSTEM = {"significant_height": 2.5, "peak_period": 8.0, "heading": 2.0, "components": 40}
+
+
+def at_sea(**changes: Any) -> Environment:
+    sea = {"systems": [SYSTEM], "vessel": SHIP | {"sheave_forward": 10.0, "sheave_up": 8.0}, "orbital_below": 6.6}
+    return Environment.model_validate(freeze({"gravity": 9.81, "vessel_ramp": 30.0, "sea": sea | changes}))
+
+
+def read(environment: Environment, depth: float, t: float) -> np.ndarray:
+    """Velocity and rate in three directions, shape (2, 3), as a kernel reads them."""
+    tables, now = orbital.orbits(environment), np.zeros((2, 3, orbital.LEVELS))
+    first, rows = tables.rows(t - 1.0, t + 1.0)
+    orbital.look_at_waves(rows, t / orbital.STEP - first, now)
+    level = orbital.find_level(tables.levels, depth)
+    return np.array([[orbital.at_level(now[kind, d], level) for d in range(3)] for kind in range(2)])
+
+
+def exact(environment: Environment, depth: float, t: float) -> np.ndarray:
+    """The sum over all waves, as :func:`read`."""
+    sea, found = environment.sea, np.zeros((2, 3))
+    assert sea is not None
+    ramp, rate, *_ = fade(np.array(t), environment.vessel_ramp, "right")
+    for heading, waves in waves_of(sea):
+        k = wave_number(waves.omega)
+        turn = np.exp(1j * (waves.omega * t + waves.phase - k * 10.0 * np.cos(heading)))
+        speed = waves.amplitude * orbital_velocity(waves.omega, 8.0 - depth) * turn
+        parts = np.outer([np.cos(heading - sea.plane), np.sin(heading - sea.plane), 1j], speed)
+        value, change = parts.sum(axis=1).real, (1j * waves.omega * parts).sum(axis=1).real
+        found += np.array([ramp * value, ramp * change + rate * value])
+    return found
+
+
+@pytest.mark.parametrize("t", [12.34, 71.29, 512.0])
+@pytest.mark.parametrize("depth", [14.7, 25.0, 60.0, 110.0])
+def test_the_tables_give_the_sum_of_the_waves(depth: float, t: float) -> None:
+    environment = at_sea(systems=[SYSTEM, SYSTEM | {"peak_period": 12.0, "heading": 1.0, "spreading": 4.0}])
+    largest = abs(exact(environment, 14.7, 80.0)).max()
+    np.testing.assert_allclose(read(environment, depth, t), exact(environment, depth, t), atol=0.006 * largest)
+
+
+def test_nothing_moves_above_the_keel_nor_far_below() -> None:
+    environment = at_sea()
+    assert not read(environment, 14.5, 80.0).any()
+    assert read(environment, 14.7, 80.0).any()
+    assert not read(environment, 900.0, 80.0).any()
+
+
+def test_stretches_meet() -> None:
+    tables = orbital.orbits(at_sea(), 1)
+    first, rows = tables.rows(40.0, 120.0)
+    again, other = tables.rows(90.0, 130.0)
+    np.testing.assert_array_equal(rows[again - first :][:50], other[:50])
+
+
+def test_a_calm_sea_moves_nothing() -> None:
+    assert not read(at_sea(systems=[SYSTEM | {"significant_height": 0.0}]), 20.0, 80.0).any()
