@@ -11,7 +11,7 @@ import hashlib
 import logging
 import platform
 from collections.abc import Callable
-from functools import cache, update_wrapper
+from functools import cache, cached_property, update_wrapper
 from multiprocessing import parent_process
 from pathlib import Path
 from time import perf_counter
@@ -202,9 +202,19 @@ class Kernel:
     def __init__(self, function: Callable[..., Any]) -> None:
         update_wrapper(self, function)
         self.py_func = function
-        self._entry = entry_kernel(function)
-        self._part = _compiled(function, "parts", _PartCompiler, forceinline=True, no_cpython_wrapper=True)
-        self._numba_type_ = _KernelType(self._part)  # which does not keep it
+
+    # Made when first asked for: a process that finds its loop on disk needs none of them.
+    @cached_property
+    def _entry(self) -> Any:
+        return entry_kernel(self.py_func)
+
+    @cached_property
+    def _part(self) -> Any:
+        return _compiled(self.py_func, "parts", _PartCompiler, forceinline=True, no_cpython_wrapper=True)
+
+    @cached_property
+    def _numba_type_(self) -> _KernelType:
+        return _KernelType(self._part)  # which does not keep it
 
     def __call__(self, *arguments: Any) -> Any:
         return self._entry(*arguments)

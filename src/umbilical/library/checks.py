@@ -12,7 +12,7 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, rope, seas, sizes, statics, steps, timeline, water, weights
+from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, timeline, water, weights
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -78,7 +78,7 @@ CHECKS: tuple[Check, ...] = (
     steps.waves_that_leave,
     steps.motors,
     timeline.marks,
-    rope.read_at_all,
+    equipment.rope_is_read,
     *(check for force in FORCES for check in force.checks),
 )
 
@@ -91,20 +91,12 @@ OF_THE_STRING = (
     steps.waves_that_leave,
 )
 """Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep."""
-OF_THE_ROPE = (
-    rope.signals,
-    rope.stretch,
-    rope.weights,
-    rope.water,
-    rope.thrusters,
-    rope.start,
-    rope.steps,
-)
-"""What only a scenario with ``model = "rope"`` is asked."""
 
 
 def checks_for(model: str) -> tuple[Check, ...]:
     """The checks of a scenario with this model of the cable."""
     if model == "rope":
-        return (*(check for check in CHECKS if check not in OF_THE_STRING), *OF_THE_ROPE)
+        from umbilical.plant.checks import rope  # with all its kernels, which a string needs none of
+
+        return (*(check for check in CHECKS if check not in OF_THE_STRING), *rope.CHECKS)
     return CHECKS

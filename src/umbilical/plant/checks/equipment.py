@@ -1,4 +1,4 @@
-"""Checks of motors, faults and sensors."""
+"""Checks of motors, faults and sensors, and of a section that belongs to another model."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from umbilical.plant.checks.timeline import MOST_JUMPS
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario.control import Control
 from umbilical.scenario.faults import Dead, Fault, Intermittent, Stuck
-from umbilical.scenario.findings import Finding, amount
+from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Motor
+from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Channel, Sensors
 
 
@@ -120,3 +121,9 @@ def latencies(sensors: Sensors, control: Control) -> Iterator[Finding]:
                 "sensors are read once per period; an older reading is one of an earlier period",
                 "round it to whole periods",
             )
+
+
+def rope_is_read(scenario: Scenario) -> Iterator[Finding]:
+    """A section that nobody reads is told."""
+    if scenario.rope is not None and scenario.model != "rope":
+        yield Notice("rope", 'nothing of this section counts for the string; model = "rope" reads it')

@@ -35,12 +35,6 @@ def signals_of(rope: Rope) -> Iterator[tuple[str, Signal, str]]:
     yield "rope.force_up", rope.force_up, "N"
 
 
-def read_at_all(scenario: Scenario) -> Iterator[Finding]:
-    """A section that nobody reads is told."""
-    if scenario.rope is not None and scenario.model != "rope":
-        yield Notice("rope", 'nothing of this section counts for the string; model = "rope" reads it')
-
-
 def signals(scenario: Scenario) -> Iterator[Finding]:
     """Terms of the section's signals make sense and cover the run; a ship does not jump."""
     for key, signal, _ in signals_of(section(scenario)):
@@ -157,3 +151,7 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
             "cable at the shortest, or the body gives its speed to the cable, in so short a time",
             "fewer rope.elements, a smaller rope.axial_stiffness, a heavier body, a shorter run",
         )
+
+
+CHECKS = (signals, stretch, weights, water, thrusters, start, steps)
+"""What only a scenario with ``model = "rope"`` is asked."""
