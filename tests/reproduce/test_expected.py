@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import copy
-import tomllib
 
 import pytest
 
-from umbilical.reproduce.expected import TOLERANCES, deviations, expected_text, published
+from umbilical.reproduce.expected import TOLERANCES, deviations, expected_text, parse, published
 from umbilical.reproduce.ledger import Finding, Kind
 
 
@@ -41,13 +40,13 @@ def test_the_whole_reproduction_is_as_published() -> None:
 
 
 def test_the_file_of_a_ledger_is_what_it_is_compared_with(findings: tuple[Finding, ...]) -> None:
-    written = tomllib.loads(expected_text(findings))
+    written = parse(expected_text(findings))
     assert deviations(findings, written) == []
 
 
 @pytest.mark.parametrize("share", [0.9, 1.1])
 def test_each_number_may_move_by_its_tolerance_and_no_further(findings: tuple[Finding, ...], share: float) -> None:
-    written = tomllib.loads(expected_text(findings))
+    written = parse(expected_text(findings))
     for finding in findings:
         for number in finding.numbers:
             how, size, _ = TOLERANCES[number.kind]
@@ -59,7 +58,7 @@ def test_each_number_may_move_by_its_tolerance_and_no_further(findings: tuple[Fi
 
 
 def test_what_is_missing_is_noticed(findings: tuple[Finding, ...]) -> None:
-    written = tomllib.loads(expected_text(findings))
+    written = parse(expected_text(findings))
     del written["C1"]["tip_peak"]
     written["C2"]["verdict"] = "does not reproduce"
     written["C3"]["gone"] = {"value": 1.0, "unit": "m", "relative": 0.1, "why": "-"}
@@ -69,7 +68,7 @@ def test_what_is_missing_is_noticed(findings: tuple[Finding, ...]) -> None:
 
 
 def test_a_number_that_is_no_longer_one_is_noticed(findings: tuple[Finding, ...]) -> None:
-    written = tomllib.loads(expected_text(findings))
+    written = parse(expected_text(findings))
     written["C1"]["tip_peak"]["value"] = float("nan")
     assert [one.name for one in deviations(findings, written)] == ["C1.tip_peak"]
 

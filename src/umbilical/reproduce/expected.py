@@ -63,28 +63,35 @@ class Deviation(NamedTuple):
 @lru_cache(maxsize=1)
 def published() -> Mapping[str, Any]:
     """What expected.toml says, by claim."""
-    return tomllib.loads((resources.files("umbilical.reproduce") / FILE).read_text(encoding="utf-8"))
+    return parse((resources.files("umbilical.reproduce") / FILE).read_text(encoding="utf-8"))
+
+
+def parse(text: str) -> dict[str, Any]:
+    """Claims of a text of :func:`expected_text`; each number has the tolerance of its kind, and why so much."""
+    claims = tomllib.loads(text)
+    tolerances = claims.pop("tolerances")
+    for entry in (entry for claim in claims.values() for entry in claim.values() if isinstance(entry, dict)):
+        entry |= tolerances[entry["kind"]]
+    return claims
 
 
 def expected_text(findings: Iterable[Finding]) -> str:
     """The file for a complete ledger."""
-    return "\n".join([_HEAD, *(line for finding in findings for line in _claim(finding))])
+    kinds = (
+        f"{kind.value} = {{ {how} = {size:g}, why = {json.dumps(why)} }}"
+        for kind, (how, size, why) in TOLERANCES.items()
+    )
+    return "\n".join([_HEAD, "[tolerances]", *kinds, *(line for finding in findings for line in _claim(finding)), ""])
 
 
 def _claim(finding: Finding) -> Iterator[str]:
-    yield f"[{finding.id}]"
+    yield from ("", f"[{finding.id}]")
     yield f"statement = {json.dumps(finding.statement)}"
     yield f"verdict = {json.dumps(finding.verdict.value)}"
     yield f"conclusion = {json.dumps(finding.conclusion)}"
     for number in finding.numbers:
-        yield from _number(finding.id, number)
-    yield ""
-
-
-def _number(claim: str, number: Number) -> Iterator[str]:
-    how, size, why = TOLERANCES[number.kind]
-    yield from ("", f"[{claim}.{number.name}]  # {number.meaning}", f"value = {number.value:.6g}")
-    yield from (f"unit = {json.dumps(number.unit)}", f"{how} = {size:g}", f"why = {json.dumps(why)}")
+        entry = f"value = {number.value:.6g}, unit = {json.dumps(number.unit)}, kind = {json.dumps(number.kind.value)}"
+        yield f"{number.name} = {{ {entry} }}  # {number.meaning}"
 
 
 def deviations(
