@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from umbilical.reproduce.experiments import EXPERIMENTS
-from umbilical.reproduce.work import in_parallel, parts
+from umbilical.reproduce.work import parts
+from umbilical.studies.engines import in_order
 
 
 def test_results_come_in_order() -> None:
@@ -16,7 +17,7 @@ def test_results_come_in_order() -> None:
         return number
 
     seen: list[float] = []
-    assert in_parallel(slow_first, range(8), seen.append) == list(range(8))
+    assert in_order(slow_first, range(8), seen.append) == list(range(8))
     assert seen == sorted(seen)
     assert seen[-1] == 1.0
 
@@ -29,7 +30,7 @@ def test_an_error_is_raised_and_the_rest_dropped() -> None:
         raise RuntimeError(number)
 
     with pytest.raises(RuntimeError):
-        in_parallel(failing, range(1000))
+        in_order(failing, range(1000))
     assert len(begun) < 1000
 
 

@@ -120,10 +120,10 @@ def test_a_search_refuses_a_line_that_is_no_trial_of_it(tmp_path, line):
     gains = [{"key": "control.law.position_gain", "low": 1.0, "high": 2.0}]
     tuning = {"arm": "PD", "gains": gains, "objectives": [{"metric": "tip_peak"}], "trials": 1}
     study = small_study(members=1, tuning=tuning)
-    tune(study, tmp_path / "out", optimiser="scipy")
+    tune(study, tmp_path / "out")
     (tmp_path / "out" / "journal.txt").write_bytes(to_line(line))
     with pytest.raises(FileError, match="no trial of this study"):
-        tune(study, tmp_path / "out", optimiser="scipy", resume=True)
+        tune(study, tmp_path / "out", resume=True)
 
 
 WORDS = {

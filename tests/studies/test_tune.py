@@ -12,11 +12,10 @@ from umbilical.errors import ScenarioError
 from umbilical.studies import engines, tune
 from umbilical.studies.constraints import CONSTRAINTS
 from umbilical.studies.load import load_study
-from umbilical.studies.search import Verdict, choose, front
+from umbilical.studies.search import Verdict, front, search
 from umbilical.studies.study import Study
 
 GAIN = [{"key": "control.disturbance_observer.gain", "low": 1.0, "high": 20.0}]
-SEARCHES = pytest.mark.parametrize("name", ["optuna", "scipy"])
 TUNING = {
     "arm": "PD",
     "trials": 12,
@@ -29,21 +28,19 @@ def tuned_study(**changes: object) -> Study:
     return small_study(members=3, scenario__duration=0.5, tuning=TUNING | changes)
 
 
-@SEARCHES
-def test_a_known_minimum_is_found(name):
+def test_a_known_minimum_is_found():
     tried = []
 
     def bowl(point):
         tried.append(((point[0] - 0.3) ** 2 + (point[1] - 0.8) ** 2, point))
         return Verdict((tried[-1][0],), ())
 
-    choose(name)[1](bowl, 2, 1, 120, 1)
+    search(bowl, 2, 1, 120, 1)
     assert min(tried)[1] == pytest.approx((0.3, 0.8), abs=0.1)
     assert len(tried) == 120
 
 
-@SEARCHES
-def test_a_condition_moves_the_minimum_to_its_border(name):
+def test_a_condition_moves_the_minimum_to_its_border():
     found = []
 
     def judge(point):
@@ -51,14 +48,13 @@ def test_a_condition_moves_the_minimum_to_its_border(name):
         found.append((point[0], verdict))
         return verdict
 
-    choose(name)[1](judge, 1, 1, 80, 1)
+    search(judge, 1, 1, 80, 1)
     best = front([verdict for _, verdict in found])
     assert 0.5 <= found[best[0]][0] < 0.56
     assert min(x for x, _ in found) < 0.5  # it looked there, and what it saw does not count
 
 
-@SEARCHES
-def test_two_objectives_leave_a_front(name):
+def test_two_objectives_leave_a_front():
     """f = x^2, (x - 1)^2: every x from 0 to 1 is on the front."""
     found = []
 
@@ -67,7 +63,7 @@ def test_two_objectives_leave_a_front(name):
         found.append(verdict)
         return verdict
 
-    choose(name)[1](judge, 1, 2, 80, 1)
+    search(judge, 1, 2, 80, 1)
     chosen = [found[k].values for k in front(found)]
     assert chosen == sorted(chosen)
     assert [b for _, b in chosen] == sorted((b for _, b in chosen), reverse=True)
@@ -75,25 +71,23 @@ def test_two_objectives_leave_a_front(name):
     assert chosen[-1][1] < 0.05
 
 
-@SEARCHES
-def test_a_stiffer_spring_keeps_the_payload_nearer(name):
-    found = tune.tune(tuned_study(), optimiser=name, engine=engines.threads(2))
+def test_a_stiffer_spring_keeps_the_payload_nearer():
+    found = tune.tune(tuned_study(), engine=engines.threads(2))
     gains = [trial.gains["control.law.position_gain"] for trial in found.trials]
     assert len(found.front) == 1
     assert found.front[0].gains["control.law.position_gain"] == max(gains)
 
 
-@SEARCHES
-def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, name, monkeypatch):
+def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, monkeypatch):
     study = tuned_study()
-    tune.tune(study, tmp_path / "whole", optimiser=name)
+    tune.tune(study, tmp_path / "whole")
     text = (tmp_path / "whole" / "journal.txt").read_bytes()
     (tmp_path / "cut").mkdir()
     shutil.copy(tmp_path / "whole" / "manifest.json", tmp_path / "cut")
     (tmp_path / "cut" / "journal.txt").write_bytes(text[: int(0.6 * len(text))])
     calls, judge = [], tune.judge
     monkeypatch.setattr(tune, "judge", lambda *a: calls.append(a) or judge(*a))
-    tune.tune(study, tmp_path / "cut", optimiser=name, resume=True)
+    tune.tune(study, tmp_path / "cut", resume=True)
     assert 0 < len(calls) < 12
     for file in ("tuning.json", "tuned-1.toml"):
         assert (tmp_path / "cut" / file).read_bytes() == (tmp_path / "whole" / file).read_bytes()

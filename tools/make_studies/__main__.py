@@ -101,7 +101,7 @@ def front(searched: tune.Tuned) -> str:
         tuned = searched.study.scenario.replace({**searched.study.changes, **trial.gains})
         rows.append([label, *(f"{number:.3g}" for number in numbers), *margins(tuned)])
     broken = ", ".join(f"{name} {count}" for name, count in searched.broken.items())
-    head = f"{len(searched.trials)} trials by {searched.optimiser}; conditions broken: {broken}."
+    head = f"{len(searched.trials)} trials by optuna; conditions broken: {broken}."
     return f"{head} Of the {len(searched.front)} points of the front {len(shown)} are shown:\n\n{rows_of(rows)}"
 
 

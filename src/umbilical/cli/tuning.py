@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import Annotated
 
 from typer import Argument, Option
 
@@ -15,17 +15,11 @@ from umbilical.cli.sweeping import load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target
 from umbilical.faces.tuning import conclusion, document, text
 
-if TYPE_CHECKING:
-    pass
-
 
 def tune(
     study: Annotated[str, Argument(help="A study with a section [tuning]: its name or a .toml file.")],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; NAME-tuned if left out.")] = None,
-    optimiser: Annotated[
-        Literal["auto", "optuna", "scipy"], Option("--optimiser", help="auto: Optuna where it is installed.")
-    ] = "auto",
     jobs: Annotated[
         int | None, Option("--jobs", metavar="N", min=1, max=4096, help="Members at once; all cores.")
     ] = None,
@@ -66,7 +60,6 @@ def tune(
             found = search(
                 chosen,
                 folder,
-                optimiser=optimiser,
                 engine=engine,
                 trust=trust,
                 resume=resume,

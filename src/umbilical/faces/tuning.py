@@ -16,9 +16,7 @@ _SHOWN = 12
 def conclusion(found: Tuned) -> Conclusion:
     """Whether some gains keep every condition."""
     kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
-    headline = (
-        f"{found.study.name}: {len(found.trials)} trials by {found.optimiser}, {kept} of which keep every condition"
-    )
+    headline = f"{found.study.name}: {len(found.trials)} trials, {kept} of which keep every condition"
     if not found.front:
         return Conclusion("DOES_NOT_HOLD", f"{headline}: none is left to choose")
     return Conclusion("HOLDS", headline)

@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 from umbilical.engine.simulate import measure
 from umbilical.library import load
 from umbilical.reproduce.experiments import BELIEVED, OBSERVER, START, preset
-from umbilical.reproduce.work import Progress, in_parallel
+from umbilical.reproduce.work import Progress
 from umbilical.run import Status
+from umbilical.studies.engines import in_order
 
 GRID: dict[str, Any] = {"grid.elements": 8}
 EARLY = {"faults.1.start": 0.1}
@@ -68,4 +69,4 @@ def run_points(points: Iterable[Point], progress: Progress | None = None, grid: 
         peak = found.metrics.get("tip_peak_after_fault", found.metrics["tip_peak"])
         return Outcome(peak if found.status is Status.COMPLETED else float("nan"), found.end_time)
 
-    return dict(zip(distinct, in_parallel(outcome, distinct, progress), strict=True))
+    return dict(zip(distinct, in_order(outcome, distinct, progress), strict=True))

@@ -14,8 +14,8 @@ from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import judge, usual_lengths, usual_thrust
 from umbilical.analysis.nyquist import stability, sweep
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.reproduce.work import in_parallel
 from umbilical.scenario import Scenario
+from umbilical.studies.engines import in_order
 
 BETA = "control.law.slope_gain"
 CERTIFIED = (0.1, 2.0)
@@ -54,7 +54,7 @@ def prove(scenario: Scenario) -> Proofs:
     """Everything, for a scenario with the boundary law and a winch that moves."""
     lengths = usual_lengths(scenario)
     still = scenario.replace({"winch": {"law": "constant", "length": lengths[-1]}})
-    ours, fixed = in_parallel(lambda one: certify(one, cure=False), (scenario, still))
+    ours, fixed = in_order(lambda one: certify(one, cure=False), (scenario, still))
     bounds, cascade = largest_bounds(fixed), judge(scenario, lengths[0])
     return Proofs(
         rate=ours.rate,

@@ -22,9 +22,9 @@ from umbilical.reproduce.proofs import prove
 from umbilical.reproduce.regions import edges
 from umbilical.reproduce.slices import GAIN, MAPS, NAMES, compute_slices
 from umbilical.reproduce.tabular import to_csv
-from umbilical.reproduce.work import Progress, in_parallel, parts
+from umbilical.reproduce.work import Progress, parts
 from umbilical.result import ResultFaces
-from umbilical.studies.engines import worker_processes
+from umbilical.studies.engines import in_order, worker_processes
 
 if TYPE_CHECKING:
     import xarray
@@ -119,9 +119,7 @@ def run_experiments(names: Sequence[str], progress: Progress | None = None) -> R
     """Runs of some experiments, by name; the longest begin first, so that no core waits for one in the end."""
     scenarios = {name: EXPERIMENTS[name].scenario() for name in names}
     longest_first = sorted(names, key=lambda name: -scenarios[name].duration)
-    found = dict(
-        zip(longest_first, in_parallel(simulate, [scenarios[n] for n in longest_first], progress), strict=True)
-    )
+    found = dict(zip(longest_first, in_order(simulate, [scenarios[n] for n in longest_first], progress), strict=True))
     return {name: found[name] for name in names}
 
 

@@ -1,45 +1,10 @@
-"""Many runs on all cores, in order, with progress."""
+"""Progress of a work in parts."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from typing import TypeVar
 
-from umbilical.studies.engines import default_jobs
-
-Task = TypeVar("Task")
-Result = TypeVar("Result")
 Progress = Callable[[float], None]
-
-
-def in_parallel(
-    function: Callable[[Task], Result], tasks: Sequence[Task], progress: Progress | None = None
-) -> list[Result]:
-    """The results of all tasks, in their order, whatever the number of cores.
-
-    Threads suffice: the compiled loop runs without the GIL. Ctrl-C drops what has not begun.
-
-    Args:
-        function: called once for each task.
-        tasks: its arguments.
-        progress: called with the share done, 0 to 1.
-
-    >>> in_parallel(abs, [-1, 2, -3])
-    [1, 2, 3]
-    """
-    found = []
-    with ThreadPoolExecutor(default_jobs()) as pool:
-        futures = [pool.submit(function, task) for task in tasks]
-        try:
-            for future in futures:
-                found.append(future.result())
-                if progress:
-                    progress(len(found) / len(futures))
-        except BaseException:
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
-    return found
 
 
 def parts(progress: Progress | None, shares: Sequence[float]) -> list[Progress]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import pickle
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from functools import lru_cache
@@ -91,6 +91,31 @@ def in_pool(pool: Executor, function: Callable[[Work], Done], items: Iterable[Wo
     finally:
         for future in running:
             future.cancel()
+
+
+def in_order(
+    function: Callable[[Work], Done],
+    items: Sequence[Work],
+    progress: Callable[[float], None] | None = None,
+    jobs: int | None = None,
+) -> list[Done]:
+    """Results of a function in the order of the items, by threads; ``progress`` is called with the share done.
+
+    >>> in_order(abs, [-1, 2, -3])
+    [1, 2, 3]
+    """
+    found = []
+    with ThreadPoolExecutor(jobs or default_jobs()) as pool:
+        futures = [pool.submit(function, item) for item in items]
+        try:
+            for future in futures:
+                found.append(future.result())
+                if progress:
+                    progress(len(found) / len(futures))
+        except BaseException:
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise
+    return found
 
 
 class _Packed:

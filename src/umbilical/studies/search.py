@@ -1,15 +1,12 @@
-"""Optimisers: Optuna where it is installed, else scipy. Both are told what to try from a seed and what came of it, so
-the same trials come again when the same values do; a search is resumed by playing it again from its journal."""
+"""The optimiser, Optuna: a seed and what came of each trial decide on the next, so equal values bring equal trials;
+a search is resumed by playing it again from its journal."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Sequence
-from importlib.util import find_spec
-from math import inf, log
+from math import inf
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from umbilical.errors import MissingPartnerError
 
@@ -29,28 +26,20 @@ class Verdict(NamedTuple):
 
 
 Judge = Callable[[Point], Verdict]
-Search = Callable[[Judge, int, int, int, int], None]
 _WORSE = 1e9
 """Stands for what is worse than any number, which optimisers cannot take."""
-_WEIGHTS = (0.5, 0.0, 1.0, 0.25, 0.75)
-"""Of the second objective, one search after the other: a single-objective method goes along the front in steps."""
 
 
-def choose(name: str) -> tuple[str, Search]:
-    """An optimiser by name, ``auto`` for the best there is.
+def search(judge: Judge, dimensions: int, objectives: int, trials: int, seed: int) -> None:
+    """Try points by tree-structured Parzen estimators (Bergstra 2011), for one objective or two, with conditions.
 
     Raises:
-        MissingPartnerError: Optuna was asked for and is not installed.
+        MissingPartnerError: Optuna is not installed.
     """
-    there = find_spec("optuna") is not None
-    if name == "optuna" and not there:
-        raise MissingPartnerError("optuna is not installed; get it with `pip install umbilical[tune]`, or use scipy")
-    return ("optuna", by_optuna) if there and name != "scipy" else ("scipy", by_scipy)
-
-
-def by_optuna(judge: Judge, dimensions: int, objectives: int, trials: int, seed: int) -> None:
-    """Tree-structured Parzen estimators (Bergstra 2011), for one objective or two, with conditions."""
-    import optuna
+    try:
+        import optuna
+    except ImportError as error:
+        raise MissingPartnerError("tuning needs optuna; get it with `pip install umbilical[tune]`") from error
 
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     directions: Any = ["minimize"] * objectives
@@ -77,44 +66,6 @@ def _sampler(optuna: Any, seed: int) -> Any:
         return optuna.samplers.TPESampler(
             seed=seed, multivariate=True, constraints_func=lambda trial: (trial.user_attrs["broken"],)
         )
-
-
-def by_scipy(judge: Judge, dimensions: int, objectives: int, trials: int, seed: int) -> None:
-    """Differential evolution (Storn and Price 1997); of two objectives weighted sums of logarithms, one by one."""
-    weights = _WEIGHTS[: max(1, min(len(_WEIGHTS), trials // 10))] if objectives == 2 else (0.0,)
-    shares = [trials // len(weights) + (k < trials % len(weights)) for k in range(len(weights))]
-    for weight, share in zip(weights, shares, strict=True):
-        _evolve(lambda point, w=weight: _scalar(judge(point), w), dimensions, share, seed)
-
-
-class _Enough(Exception):
-    """All trials are used up."""
-
-
-def _evolve(cost: Callable[[Point], float], dimensions: int, trials: int, seed: int) -> None:
-    from scipy.optimize import differential_evolution
-
-    left = [trials]
-
-    def counted(x: np.ndarray) -> float:
-        if left[0] == 0:
-            raise _Enough
-        left[0] -= 1
-        return cost(tuple(float(value) for value in x))
-
-    settings: dict[str, Any] = {"polish": False, "init": "sobol", "updating": "deferred", "tol": 0.0}
-    try:
-        differential_evolution(counted, [(0.0, 1.0)] * dimensions, maxiter=trials, popsize=5, rng=seed, **settings)
-    except _Enough:
-        return
-
-
-def _scalar(found: Verdict, weight: float) -> float:
-    """One number for all: the broken conditions first."""
-    if found.broken > 0.0:
-        return _WORSE * (1.0 + found.broken)
-    weights = (1.0 - weight, weight)[: len(found.values)]
-    return sum(w * log(min(max(value, 1e-300), _WORSE)) for w, value in zip(weights, found.values, strict=True) if w)
 
 
 def front(verdicts: Sequence[Verdict]) -> list[int]:

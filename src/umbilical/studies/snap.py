@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import sqrt
 from typing import Any
@@ -19,6 +18,7 @@ from umbilical.plant.rope.records import vector_of
 from umbilical.plant.top import top_at
 from umbilical.run import Status
 from umbilical.scenario.scenario import Scenario
+from umbilical.studies.engines import in_order
 
 LEVEL = 0.95
 """Confidence of the intervals."""
@@ -124,15 +124,9 @@ def snap(
     """
     _check(scenario, seeds)
     sea = scenario.environment.sea
-    first = sea.seed if sea else 0
-    chosen = first + np.arange(seeds)
-    done, rows = 0, []
-    with ThreadPoolExecutor(workers) as pool:
-        for row in pool.map(lambda seed: _one(scenario.replace({"environment.sea.seed": int(seed)})), chosen):
-            rows.append(row)
-            done += 1
-            if progress:
-                progress(done / seeds)
+    chosen = (sea.seed if sea else 0) + np.arange(seeds)
+    changed = [scenario.replace({"environment.sea.seed": seed}) for seed in chosen.tolist()]
+    rows = in_order(_one, changed, progress, workers)
     completed, tension, snaps, largest, slack, speed = np.array(rows).T
     good = completed > 0.0
     return SnapStudy(

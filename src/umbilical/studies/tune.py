@@ -26,7 +26,7 @@ from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, arm_data
 from umbilical.studies.results import StudyResult
 from umbilical.studies.room import check_memory
-from umbilical.studies.search import Point, Verdict, choose, front
+from umbilical.studies.search import Point, Verdict, front, search
 from umbilical.studies.store import Store, open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
 from umbilical.studies.sweep import default_engine, in_memory
@@ -50,7 +50,6 @@ class Tuned(ResultFaces):
 
     Attributes:
         study: what was tuned.
-        optimiser: ``optuna`` or ``scipy``.
         conditions: names of the conditions, in the order of a verdict's violations.
         trials: everything tried, in order.
         front: the trials no other beats, by the first objective; one objective: the best alone.
@@ -60,7 +59,6 @@ class Tuned(ResultFaces):
     drawn_by: ClassVar[str] = "plot_tuning"
 
     study: Study
-    optimiser: str
     conditions: tuple[str, ...]
     trials: tuple[Trial, ...]
 
@@ -86,7 +84,7 @@ class Tuned(ResultFaces):
         return {
             "study": self.study.name,
             "study_hash": self.study.hash,
-            "optimiser": self.optimiser,
+            "optimiser": "optuna",
             "objectives": [name_of(o) for o in tuning_of(self.study).objectives],
             "conditions": list(self.conditions),
             "broken": self.broken,
@@ -103,7 +101,6 @@ def tune(
     study: Study,
     folder: str | os.PathLike[str] | None = None,
     *,
-    optimiser: str = "auto",
     engine: Engine | None = None,
     constraints: Mapping[str, Constraint] | None = None,
     trust: bool = False,
@@ -117,7 +114,6 @@ def tune(
         study: with a section ``tuning``.
         folder: where trials are kept as they go, ``tuning.json`` and a scenario for each trial of the front,
             ``tuned-1.toml`` and so on, in the end; None keeps nothing.
-        optimiser: ``optuna``, ``scipy``, or ``auto`` for the first that is installed.
         engine: who runs the members of a trial; all cores of this machine by default.
         constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
         trust: import the Python controllers that the study's arms name. That runs their code.
@@ -128,21 +124,21 @@ def tune(
     Raises:
         ScenarioError: the study has no section ``tuning``, a condition nobody knows, or a Python controller that is
             not trusted or does not work.
-        MissingPartnerError: Optuna was asked for and is not installed.
+        MissingPartnerError: Optuna is not installed.
         OutputError, FileError: as :func:`~umbilical.studies.sweep.sweep`.
     """
-    tuning, (name, search) = tuning_of(study), choose(optimiser)
+    tuning = tuning_of(study)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
     check_memory(study)
     check_controllers(study, trust=trust)
     engine = engine or default_engine(study, default_jobs())
-    task = f"tune {name}"
+    task = "tune optuna"
     opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
     with opened as store:
         trials = _Trials(study, kept, engine, store, progress)
         search(trials.judge, len(tuning.gains), len(tuning.objectives), tuning.trials, study.seed)
-        found = Tuned(study, name, ("admitted", *kept, "completes"), tuple(trials.all))
+        found = Tuned(study, ("admitted", *kept, "completes"), tuple(trials.all))
         if store is not None:
             _keep(store, found)
     return found
