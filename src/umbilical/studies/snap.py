@@ -131,7 +131,7 @@ def snap(
     good = completed > 0.0
     return SnapStudy(
         scenario, chosen, good, tension, snaps.astype(int), largest, weights_of(scenario)[1], speed,
-        share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], first),
+        share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], int(chosen[0])),
     )  # fmt: skip
 
 
