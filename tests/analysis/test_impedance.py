@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.support.spectra import tip_response
 from umbilical.analysis.impedance import (
     HangingCable,
     payload_stiffness,
-    tip_response,
     upward_asymptote,
     wave_number,
     waves,

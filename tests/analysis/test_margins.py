@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.impedance import hanging_cable, tip_response
+from tests.support.spectra import tip_response
+from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.limits import later, margins, scaled, turned
 from umbilical.analysis.margins import check, judge, judge_loop, usual_lengths, usual_thrust
 from umbilical.analysis.nyquist import resolved_ratio, stability, sweep

@@ -7,8 +7,9 @@ import pytest
 
 import umbilical
 from tests.support.scenarios import constant, open_loop, sine
+from tests.support.spectra import step_poles
 from umbilical.engine import linear as module
-from umbilical.engine.linear import linearise_plant, step_matrix, step_poles
+from umbilical.engine.linear import linearise_plant, step_matrix
 from umbilical.engine.loop import World, advance_period
 from umbilical.engine.schedule import stretch
 from umbilical.engine.sensing import read_truth

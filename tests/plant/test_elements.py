@@ -7,7 +7,6 @@ import pytest
 
 from umbilical.plant.elements import DERIVATIVE, INTEGRAL, NODES, WEIGHTS, interpolation_row, upwind_spectrum
 from umbilical.plant.layout import (
-    empty_block,
     integrate,
     node_count,
     positions,
@@ -76,7 +75,6 @@ def test_layout_there_and_back() -> None:
     np.testing.assert_array_equal(to_nodal(inside), nodal)
     assert inside[1, 4, 5] == nodal[1, 24], "the ROV"
     assert inside[1, 2, 3] == nodal[1, 14]
-    assert empty_block(6).shape == (5, 12)
     assert node_count(6) == positions(6).size == 25
 
 

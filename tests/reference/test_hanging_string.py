@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tests.support.spectra import step_poles
 from tests.support.verdicts import assert_holds, each
-from umbilical.engine.linear import step_poles
 from umbilical.verify import hanging_string, ours, static_deflection, tip_damper
 from umbilical.verify.cases import Case
 from umbilical.verify.references.hanging_string import HangingString, damped_poles, frequencies, static_shape

@@ -152,11 +152,3 @@ def upward_asymptote(cable: HangingCable, p: np.ndarray) -> np.ndarray:
 def payload_stiffness(cable: HangingCable, p: np.ndarray) -> np.ndarray:
     """m p^2 + c_tip p, N/m: force over displacement of the ROV alone."""
     return p * (cable.payload_mass * p + cable.payload_damping)
-
-
-def tip_response(cable: HangingCable, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Displacement and slope at the ROV per force on it, m/N and 1/N, at complex frequencies p."""
-    echo, down, up = waves(cable, p)
-    stiffness = payload_stiffness(cable, p)
-    wave = 1.0 / (stiffness - up + echo * (stiffness - down))
-    return (1.0 + echo) * wave, -(up + echo * down) * wave / cable.tip_tension

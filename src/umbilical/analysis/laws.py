@@ -110,8 +110,8 @@ def root_slope(demand: float, width: float, spread: float = 0.0) -> float:
 def shares(motors: Motors, kappa: np.ndarray) -> np.ndarray:
     """Demand on each motor per commanded thrust, rad2/(N s2), kappa frozen where it adapts (23)."""
     coefficients = motors.nominal["thrust_coefficient"]
-    factor = kappa[0] if motors.adaptation.enabled else 1.0 / np.abs(coefficients).sum()
-    return np.sign(coefficients) * factor
+    signs = np.sign(coefficients)
+    return signs * kappa[0] if motors.adaptation.enabled else signs / np.abs(coefficients).sum()
 
 
 def _memory() -> CascadeState:

@@ -21,7 +21,6 @@ GAIN_STEP = 1.08
 LARGEST_GAIN = 100.0
 PHASE_STEP = np.deg2rad(3.0)
 LARGEST_PHASE = np.deg2rad(90.0)
-DELAY_STEP = 1.25
 FIRST_DELAY = 1e-2
 """In outer periods, as is the next."""
 LARGEST_DELAY = 1000.0

@@ -12,6 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from umbilical.control.linear import held_input_form
+
 Step = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
 """From state and inputs to the state after a step and the outputs, one array each."""
 
@@ -97,14 +99,9 @@ def differences(
 
 
 def held(a: np.ndarray, b: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
-    """Exact step of ``x' = a x + b u`` under a held input, ``b`` of shape (n, inputs) (Van Loan, 1978)."""
-    from scipy.linalg import expm
-
-    n, inputs = b.shape
-    block = np.zeros((n + inputs, n + inputs))
-    block[:n, :n], block[:n, n:] = a, b
-    step = expm(block * period)
-    return step[:n, :n], step[:n, n:]
+    """Exact step of ``x' = a x + b u`` under a held input, ``b`` of shape (n, inputs)."""
+    form = held_input_form(a, b, period)
+    return form[:, : len(a)], form[:, len(a) :]
 
 
 def delayed(system: Linear, ages: tuple[int, ...]) -> Linear:

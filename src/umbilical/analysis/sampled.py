@@ -24,8 +24,7 @@ from umbilical.analysis.linear import Linear, delayed, held
 from umbilical.analysis.updates import Rest, linearise_controller
 from umbilical.control.cascade import CascadeSettings, make_settings, make_state, with_known_factors
 from umbilical.control.contract import Controller, Measurement
-from umbilical.relations.formulas import soft_signed_root
-from umbilical.scenario.hardware import Motor
+from umbilical.relations.formulas import motor_rates, soft_signed_root
 from umbilical.scenario.scenario import Scenario
 
 ALIASES = 12
@@ -184,18 +183,6 @@ def _drive(
     law = delayed(motor_law(motors, number, speed, abs(demand), varying), ages)
     rates, volts = motor_rates(motor, speed)
     return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * speed, abs(share))
-
-
-def motor_rates(motor: Motor, speed: float) -> tuple[np.ndarray, np.ndarray]:
-    """(15) near a steady speed, rad/s: ``(w, i)' = rates (w, i) + volts U``."""
-    brake = motor.viscous_friction + 2.0 * motor.load_coefficient * abs(speed)
-    rates = np.array(
-        [
-            [-brake / motor.inertia, motor.torque_constant / motor.inertia],
-            [-motor.back_emf_constant / motor.inductance, -motor.resistance / motor.inductance],
-        ]
-    )
-    return rates, np.array([[0.0], [1.0 / motor.inductance]])
 
 
 class LoopResponse(NamedTuple):

@@ -14,20 +14,20 @@ def held_input_form(a: np.ndarray, b: np.ndarray, period: float) -> np.ndarray:
 
     Args:
         a: shape (n, n).
-        b: shape (n,).
+        b: shape (n,), or (n, inputs).
         period: s.
 
     Returns:
-        A and B side by side, shape (n, n + 1).
+        A and B side by side, shape (n, n + inputs).
 
     >>> form = held_input_form(np.array([[-2.0]]), np.array([2.0]), 0.5)
     >>> bool(np.allclose(form, [[np.exp(-1.0), 1.0 - np.exp(-1.0)]], rtol=1e-15))
     True
     """
     n = a.shape[0]
-    block = np.zeros((n + 1, n + 1))
-    block[:n, :n], block[:n, n] = a, b
-    return _exponential((block * period).tobytes(), n + 1)[:n].copy()
+    block = np.zeros((n + b.size // n, n + b.size // n))
+    block[:n, :n], block[:n, n:] = a, b.reshape(n, -1)
+    return _exponential((block * period).tobytes(), len(block))[:n].copy()
 
 
 @lru_cache(maxsize=256)

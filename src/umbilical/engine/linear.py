@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -102,24 +101,6 @@ def _entries(rate: np.ndarray, columns: np.ndarray, elements: int) -> tuple[np.n
     felt = (row < size - 1) | (of[which] == elements - 1)
     row, which = row[felt], which[felt]
     return row, columns[which], rate[row]
-
-
-def step_poles(scenario: Scenario, time: float = 0.0) -> Any:
-    """Poles of cable and ROV as the engine's step has them, 1/s, shape (10 n + 1,), by increasing imaginary part.
-
-    A mode that changes by the factor z in a step stands for the pole ``log(z)/step``. Waves too short for the grid
-    decay fast. Arguments as for :func:`linearise_plant`.
-    """
-    plant = linearise_plant(scenario, time)
-    products = plant.step * np.linalg.eigvals(plant.a.toarray())
-    poles = np.log(np.array([_principal_root(q) for q in products])) / plant.step
-    return poles[np.argsort(poles.imag)]
-
-
-def _principal_root(product: complex) -> complex:
-    """The factor z of a step that stands for ``exp(product)``; the other two of the method decay within steps."""
-    roots = np.roots(np.append(1.0, -product * EXPLICIT[2]) - np.array([0.0, 1.0, 0.0, 0.0]))
-    return roots[np.argmin(np.abs(roots - np.exp(product)))]
 
 
 def step_matrix(scenario: Scenario, time: float = 0.0) -> np.ndarray:

@@ -19,11 +19,6 @@ def node_count(elements: int) -> int:
     return DEGREE * elements + 1
 
 
-def empty_block(elements: int) -> np.ndarray:
-    """A block of zeros, shape (5, 2 n)."""
-    return np.zeros((DEGREE + 1, 2 * elements))
-
-
 def to_elements(nodal: np.ndarray) -> np.ndarray:
     """Values along the cable, shape (..., 4 n + 1), node by element: (..., 5, n)."""
     elements = (nodal.shape[-1] - 1) // DEGREE

@@ -5,8 +5,10 @@ Each function works on floats and arrays in plain Python and is inlined into the
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
+
+import numpy as np
 
 from umbilical.compile import formula
 from umbilical.frames import Frame, real
@@ -50,10 +52,20 @@ def motor_constants(motor: Any) -> MotorConstants:
     )
 
 
+def motor_rates(motor: Any, speed: float) -> tuple[np.ndarray, np.ndarray]:
+    """(15) near a steady speed, rad/s: ``(w, i)' = rates (w, i) + volts U``."""
+    brake = motor.viscous_friction + 2.0 * motor.load_coefficient * abs(speed)
+    rates = [
+        [-brake / motor.inertia, motor.torque_constant / motor.inertia],
+        [-motor.back_emf_constant / motor.inductance, -motor.resistance / motor.inductance],
+    ]
+    return np.array(rates), np.array([[0.0], [1.0 / motor.inductance]])
+
+
 def steady_speed(
     motor: Any, voltage: float, voltage_disturbance: float = 0.0, torque_disturbance: float = 0.0
 ) -> float:
-    """Speed at which a motor settles under constant voltage, rad/s: the root of (15) at rest.
+    """Speed at which a motor settles under constant voltage, rad/s: the root of (15) at rest; infinite without a brake.
 
     ``w = sgn(G) (-b + sqrt(b^2 + 4 K_Q |G|)) / (2 K_Q)`` with ``G = K_t (U + d2)/R + d1`` and
     ``b = B + K_t K_b/R``.
@@ -62,5 +74,6 @@ def steady_speed(
     brake = motor.viscous_friction + motor.torque_constant * motor.back_emf_constant / motor.resistance
     size = abs(drive)
     # The textbook root loses all digits as K_Q -> 0; this form of it does not.
-    speed = 2.0 * size / (brake + sqrt(brake * brake + 4.0 * motor.load_coefficient * size)) if size else 0.0
+    root = brake + sqrt(brake * brake + 4.0 * motor.load_coefficient * size)
+    speed = 2.0 * size / root if root else inf if size else 0.0
     return speed if drive >= 0.0 else -speed

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field
@@ -64,3 +66,9 @@ def measured(
     extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "cure": cure}
     limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
     return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]
+
+
+def fingerprint(data: dict[str, Any]) -> str:
+    """SHA-256 of plain data as canonical JSON: sorted keys, shortest numbers, no spaces."""
+    text = json.dumps(data, sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return hashlib.sha256(text.encode()).hexdigest()

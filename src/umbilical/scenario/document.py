@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import tomllib
 from collections.abc import Mapping
@@ -13,6 +12,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.scenario.base import fingerprint
 from umbilical.scenario.fields import TAGS, place_of
 from umbilical.scenario.problems import problems_of, short, shown
 from umbilical.scenario.scenario import Scenario
@@ -93,9 +93,8 @@ def to_dict(scenario: Scenario) -> Data:
 
 
 def scenario_hash(scenario: Scenario) -> str:
-    """SHA-256 of the scenario's canonical JSON: sorted keys, shortest numbers, no spaces."""
-    text = json.dumps(to_dict(scenario), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+    """SHA-256 of the scenario's canonical JSON."""
+    return fingerprint(to_dict(scenario))
 
 
 def extend(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:

@@ -9,6 +9,10 @@ from pydantic import Field
 from umbilical.scenario.base import Number, Record, measured
 from umbilical.scenario.source import FromFile
 
+_FORWARD = measured("m", "sheave forward of midship", 0.0, ge=-500.0, le=500.0, reason="pitch")
+_PORT = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll")
+_UP = measured("m", "sheave above the waterline", 0.0, ge=-50.0, le=100.0, reason="its lever of roll and pitch")
+
 
 class BoxShip(Record):
     """A vessel by the closed form of Jensen, Mansour and Olsen, and where its sheave is."""
@@ -20,23 +24,9 @@ class BoxShip(Record):
     block_coefficient: float = measured(
         "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9"
     )
-    sheave_forward: float = measured(
-        "m",
-        "sheave forward of midship",
-        0.0,
-        ge=-500.0,
-        le=500.0,
-        reason="pitch",
-    )
-    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll")
-    sheave_up: float = measured(
-        "m",
-        "sheave above the waterline",
-        0.0,
-        ge=-50.0,
-        le=100.0,
-        reason="its lever of roll and pitch",
-    )
+    sheave_forward: float = _FORWARD
+    sheave_port: float = _PORT
+    sheave_up: float = _UP
 
 
 def _rows(unit: str, meaning: str, default: Any = ()) -> Any:
@@ -66,23 +56,9 @@ class RaoShip(Record):
     rotations: Literal["per_metre", "per_slope"] = Field(
         default="per_metre", description="rotations in rad per metre of wave amplitude, or per wave slope"
     )
-    sheave_forward: float = measured(
-        "m",
-        "sheave forward of midship",
-        0.0,
-        ge=-500.0,
-        le=500.0,
-        reason="pitch",
-    )
-    sheave_port: float = measured("m", "sheave to port of midship", 0.0, ge=-100.0, le=100.0, reason="roll")
-    sheave_up: float = measured(
-        "m",
-        "sheave above the waterline",
-        0.0,
-        ge=-50.0,
-        le=100.0,
-        reason="its lever of roll and pitch",
-    )
+    sheave_forward: float = _FORWARD
+    sheave_port: float = _PORT
+    sheave_up: float = _UP
     heading: tuple[Number, ...] = _rows("rad", "heading of each row", ...)
     frequency: tuple[Number, ...] = _rows("rad/s", "angular frequency of each row", ...)
     heave: tuple[Number, ...] = _rows("m/m", "heave over wave amplitude", ...)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from typing import Any, Literal
 
 from pydantic import Field
 
-from umbilical.scenario.base import Record, measured
+from umbilical.scenario.base import Record, fingerprint, measured
 from umbilical.scenario.ship import Ship
 
 
@@ -98,8 +96,7 @@ class Operation(Record):
     @property
     def hash(self) -> str:
         """SHA-256 of the canonical text; equal exactly when operations are."""
-        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        return hashlib.sha256(text.encode()).hexdigest()
+        return fingerprint(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data."""

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Mapping
 from math import exp, log
 from typing import Any, Literal
 
 from pydantic import Field
 
-from umbilical.scenario.base import Number, Record
+from umbilical.scenario.base import Number, Record, fingerprint
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.distributions import Distribution
 
@@ -119,8 +117,7 @@ class Study(Record):
     @property
     def hash(self) -> str:
         """SHA-256 of the canonical text; equal exactly when studies are."""
-        text = json.dumps(self.to_dict(), sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        return hashlib.sha256(text.encode()).hexdigest()
+        return fingerprint(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, the scenario included."""

@@ -359,37 +359,16 @@ fmi2Status fmi2CancelStep(fmi2Component c)
     return refuse(c, "a step is over when fmi2DoStep() returns");
 }
 
-fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-{
-    (void)kind;
-    (void)value;
-    return refuse(c, "a step is over when fmi2DoStep() returns");
-}
+#define NO_STATUS(function, type)                                                \
+    fmi2Status function(fmi2Component c, const fmi2StatusKind kind, type *value) \
+    {                                                                            \
+        (void)kind;                                                              \
+        (void)value;                                                             \
+        return refuse(c, "a step is over when fmi2DoStep() returns");            \
+    }
 
-fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-{
-    (void)kind;
-    (void)value;
-    return refuse(c, "a step is over when fmi2DoStep() returns");
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
-{
-    (void)kind;
-    (void)value;
-    return refuse(c, "a step is over when fmi2DoStep() returns");
-}
-
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-{
-    (void)kind;
-    (void)value;
-    return refuse(c, "a step is over when fmi2DoStep() returns");
-}
-
-fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
-{
-    (void)kind;
-    (void)value;
-    return refuse(c, "a step is over when fmi2DoStep() returns");
-}
+NO_STATUS(fmi2GetStatus, fmi2Status)
+NO_STATUS(fmi2GetRealStatus, fmi2Real)
+NO_STATUS(fmi2GetIntegerStatus, fmi2Integer)
+NO_STATUS(fmi2GetBooleanStatus, fmi2Boolean)
+NO_STATUS(fmi2GetStringStatus, fmi2String)

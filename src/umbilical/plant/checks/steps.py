@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import pi, sqrt
+from math import inf, pi, sqrt
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.plant.top import top_at
+from umbilical.relations.formulas import motor_rates, steady_speed
 from umbilical.relations.instants import count_up
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.relations.water import line_inertia, payload_inertia
@@ -149,22 +150,14 @@ def motors(motors: Sequence[Motor], ideal_thruster: bool, control: Control, grid
 
 
 def reachable_speed(motor: Motor) -> float:
-    """Steady speed at the voltage limit, rad/s, from ``K_Q w^2 + (B + K_t K_b/R) w = K_t U/R``."""
-    if motor.voltage_limit is None:
-        return _USUAL_SPEED
-    torque = motor.torque_constant * motor.voltage_limit / motor.resistance
-    friction = motor.viscous_friction + motor.torque_constant * motor.back_emf_constant / motor.resistance
-    root = friction + sqrt(friction * friction + 4.0 * motor.load_coefficient * torque)
-    return 2.0 * torque / root if root > 0.0 else _USUAL_SPEED
+    """Steady speed at the voltage limit, rad/s; a usual one where there is no bound."""
+    speed = inf if motor.voltage_limit is None else steady_speed(motor, motor.voltage_limit)
+    return speed if speed < inf else _USUAL_SPEED
 
 
 def fastest_pole(motor: Motor, speed: float) -> float:
     """Largest modulus, 1/s, of the poles of eq. (15) linearised at a speed, rad/s; infinite if they overflow."""
-    brake = motor.viscous_friction + 2.0 * motor.load_coefficient * abs(speed)
-    matrix = np.array([
-        [-brake / motor.inertia, motor.torque_constant / motor.inertia],
-        [-motor.back_emf_constant / motor.inductance, -motor.resistance / motor.inductance],
-    ])  # fmt: skip
+    matrix, _ = motor_rates(motor, speed)
     return float(np.abs(np.linalg.eigvals(matrix)).max()) if np.isfinite(matrix).all() else float("inf")
 
 

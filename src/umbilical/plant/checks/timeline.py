@@ -92,16 +92,13 @@ def tables_of_the_winch(winch: Winch, duration: float) -> Iterator[Finding]:
         yield from table_problems(_of_lengths(duration), winch.times, len(winch.lengths))
 
 
-def smooth_environment(environment: Environment, duration: float) -> Iterator[Finding]:
-    """Smooth tables of the loads and of the vessel's motion stay near their data."""
-    for key, signal in of_environment(environment):
-        yield from _smooth(key, signal, duration)
-
-
-def smooth_motors(motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
-    """Smooth tables of the motors' disturbances stay near their data."""
-    for key, signal in of_motors(motors):
-        yield from _smooth(key, signal, duration)
+def smooth_signals(environment: Environment, motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
+    """Smooth tables of loads, of the vessel's motion and of the motors' disturbances stay near their data."""
+    for key, signal in (*of_environment(environment), *of_motors(motors)):
+        for number, term in enumerate(signal, start=1):
+            if isinstance(term, Table) and term.interpolation == "smooth":
+                table = _of_times(f"{key}.{number}", duration)
+                yield from smoothness(table, term.times, term.values, _UNITS[key.split(".")[-1]])
 
 
 def smooth_winch(winch: Winch, duration: float) -> Iterator[Finding]:
@@ -195,13 +192,6 @@ def check_signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]
                 "a pulse ends after it starts",
                 "a later end",
             )
-
-
-def _smooth(key: str, signal: Signal, duration: float) -> Iterator[Finding]:
-    for number, term in enumerate(signal, start=1):
-        if isinstance(term, Table) and term.interpolation == "smooth":
-            table = _of_times(f"{key}.{number}", duration)
-            yield from smoothness(table, term.times, term.values, _UNITS[key.split(".")[-1]])
 
 
 def _of_times(key: str, duration: float, *, jumps: bool = False) -> TableOf:
