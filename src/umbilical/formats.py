@@ -6,7 +6,7 @@ Each is a function between a dataset and bytes. No clock, host or path enters th
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from numbers import Integral
 from typing import TYPE_CHECKING
 
@@ -92,11 +92,24 @@ def to_csv(data: xarray.Dataset) -> bytes:
     Two comment lines come first (what it is; the unit of every column), then the names. What lies along the cable is
     left out: a table has no place for it.
     """
-    names, units, columns = zip(*_columns(data), strict=True)
-    head = [f"# {data.attrs['title']}, scenario {data.attrs['scenario_hash']}", "# " + ",".join(units), ",".join(names)]
-    text = io.StringIO()
-    np.savetxt(text, np.column_stack(columns), fmt="%.17g", delimiter=",", header="\n".join(head), comments="")
-    return text.getvalue().encode()
+    return csv_of(f"{data.attrs['title']}, scenario {data.attrs['scenario_hash']}", _columns(data))
+
+
+def csv_of(title: str, columns: Iterable[tuple[str, str, np.ndarray]]) -> bytes:
+    """Columns, each a name, a unit and values, as CSV below two lines of comment: the title and the units."""
+    names, units, values = zip(*columns, strict=True)
+    rows = zip(*(map(shown_in_csv, column.tolist()) for column in values), strict=True)
+    lines = [f"# {title}", "# " + ",".join(units), ",".join(names), *(",".join(row) for row in rows), ""]
+    return "\n".join(lines).encode()
+
+
+def shown_in_csv(value: object) -> str:
+    """A number with all its digits, a word as it is, nothing where there is no number.
+
+    >>> shown_in_csv(0.1), shown_in_csv(float("nan")), shown_in_csv("dead")
+    ('0.1', '', 'dead')
+    """
+    return "" if value != value else str(value)
 
 
 def _columns(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:

@@ -135,3 +135,24 @@ def test_every_channel_and_metric_is_in_a_run() -> None:
     held = {str(name) for run in runs for name in run.data.data_vars if not str(name).startswith("metric_")}
     assert held == set(CHANNELS)
     assert {name for run in runs for name in run.metrics} | {"largest_snap"} == set(METRICS)
+
+
+def lost_words(text: str) -> list[str]:
+    """Backticked files and names of a page's tables that are nowhere in the tree."""
+    quoted = [word for row in text.splitlines() if row.startswith("| ") for word in re.findall(r"`([^`]+)`", row)]
+    files = [word for word in quoted if "/" in word and " " not in word]
+    folders = [SOURCE, ROOT]
+    lost = [word for word in files if not any([*folder.glob(word.rstrip("/"))] for folder in folders)]
+    code = [path for folder in (SOURCE, ROOT / "tests" / "support") for path in folder.rglob("*.*")]
+    known = "\n".join(p.read_text(encoding="utf-8") for p in code if p.suffix in (".py", ".toml", ".c", ".html"))
+    names = (name for word in quoted if word not in files for name in re.findall(r"[A-Za-z_]\w{2,}", word))
+    return lost + [name for name in names if name not in known]
+
+
+def test_the_architecture_names_what_is_there() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    assert lost_words(page) == []
+    assert lost_words("| `plant/nowhere.py` | `no_such_function` of `plant/winch.py` |") == [
+        "plant/nowhere.py",
+        "no_such_function",
+    ]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterator
 from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from umbilical.formats import csv_of, shown_in_csv
 
 if TYPE_CHECKING:
     import xarray
@@ -19,13 +20,7 @@ def to_csv(data: xarray.Dataset) -> bytes:
     With ``time``, a row for each instant and a column for each of everything else (``displacement pd l/2``);
     without, a row for each cell.
     """
-    columns = list(_over_time(data) if "time" in data.dims else _cells(data))
-    head = [f"# {data.attrs['title']}", "# " + ",".join(unit for _, unit, _ in columns)]
-    text = io.StringIO()
-    text.write("\n".join([*head, ",".join(name for name, _, _ in columns)]) + "\n")
-    rows = zip(*(map(_shown, values) for _, _, values in columns), strict=True)
-    text.writelines(",".join(row) + "\n" for row in rows)
-    return text.getvalue().encode()
+    return csv_of(data.attrs["title"], _over_time(data) if "time" in data.dims else _cells(data))
 
 
 def _over_time(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
@@ -37,7 +32,7 @@ def _over_time(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
         others = [dim for dim in array.dims if dim != "time"]
         for place in product(*(range(array.sizes[dim]) for dim in others)):
             one = array.isel(dict(zip(others, place, strict=True)))
-            words = [_shown(data[dim].values[k]) for dim, k in zip(others, place, strict=True)]
+            words = [shown_in_csv(data[dim].values[k]) for dim, k in zip(others, place, strict=True)]
             yield " ".join([str(name), *words]), array.attrs["units"], one.values
 
 
@@ -49,10 +44,3 @@ def _cells(data: xarray.Dataset) -> Iterator[tuple[str, str, np.ndarray]]:
         yield dim, data[dim].attrs.get("units", ""), np.array([place[k] for place in places], dtype=object)
     for name, array in data.data_vars.items():
         yield str(name), array.attrs["units"], array.transpose(*dims).values.ravel()
-
-
-def _shown(value: object) -> str:
-    """A number with all its digits, a word as it is, nothing where there is no number."""
-    if isinstance(value, float | np.floating):
-        return "" if np.isnan(value) else repr(float(value))
-    return str(value)
