@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
-from umbilical.cli.conclusion import conclude
+from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Plot
 from umbilical.cli.running import load_changed
-from umbilical.cli.targets import PICTURES, check_target
-from umbilical.faces.certificate import conclusion, document, text
+from umbilical.cli.targets import PICTURES, check_target, draw
 
 if TYPE_CHECKING:
     from umbilical.analysis.certificate import Certificate
@@ -38,20 +36,13 @@ def certify(
     and then there is nothing that --audit could simulate against: the second line says what was proved to mend it.
     """
     chosen = load_changed(scenario, changes or [])
-    if plot:
-        check_target(plot, PICTURES, force=force)
-    found, checked = _work(chosen, audit)
-    files = {"plot": str(_draw(found, checked, plot, force))} if plot else {}
-    return conclude(
-        conclusion(found, checked),
-        text=lambda: text(found, checked),
-        document=lambda: document(found, checked),
-        files=files,
-        as_json=as_json,
-    )
+    check_target(plot, PICTURES, force=force)
+    found, checked = _certify(chosen, audit)
+    files = draw(lambda: found.plot(audit=checked), plot, force=force)
+    return conclude_result(found, checked, files=files, as_json=as_json)
 
 
-def _work(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
+def _certify(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
     from umbilical.analysis.certificate import certify as prove
 
     certificate = prove(scenario)
@@ -64,9 +55,3 @@ def _work(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
     with bar("simulating the ideal and the real loop") as advance:
         checked = audits.audit(scenario, progress=advance)
     return checked.certificate, checked
-
-
-def _draw(certificate: Certificate, audit: Audit | None, plot: Path, force: bool) -> Path:
-    from umbilical.plots import plot_certificate, save_figure
-
-    return save_figure(plot_certificate(certificate, audit), plot, force=force)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
 from typing import Any
 
 from umbilical.cli.speech import say, say_json
 from umbilical.faces.conclusion import Conclusion
+from umbilical.result import ResultFaces
 
 
 def conclude(
@@ -35,3 +37,15 @@ def conclude(
         written = [f"  {role}: {path}" for role, path in (files or {}).items()]
         say("\n".join(filter(None, [conclusion.headline, text(), *written])))
     return conclusion.exit_code
+
+
+def conclude_result(result: ResultFaces, *beside: Any, files: Mapping[str, Any] | None = None, as_json: bool) -> int:
+    """Print a result by its own faces, as :func:`conclude`; ``beside`` is what they take with it, such as an audit."""
+    faces = import_module(result.shown_by)
+    return conclude(
+        faces.conclusion(result, *beside),
+        text=lambda: faces.text(result, *beside),
+        document=lambda: faces.document(result, *beside),
+        files=files,
+        as_json=as_json,
+    )

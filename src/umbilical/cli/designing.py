@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Changes, Force, Json, Plot, Thrust
+from umbilical.cli.conclusion import conclude_result
+from umbilical.cli.options import Changes, Force, Json, Plot, Thrust, numbers
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.running import load_changed
-from umbilical.cli.targets import PICTURES, check_target
-from umbilical.faces.design import conclusion, document, text
+from umbilical.cli.targets import PICTURES, check_target, draw
 
 if TYPE_CHECKING:
-    from umbilical.design.design import Design
     from umbilical.design.rounds import Limits
 
 Objective = Literal["ringdown", "rejection", "both"]
@@ -54,41 +52,28 @@ def design(
     Exit code 7: some margin or limit is not kept; what was found is told all the same.
     """
     chosen = load_changed(scenario, changes or [])
-    if out:
-        check_target(out, ("toml",), force=force)
-    if plot:
-        check_target(plot, PICTURES, force=force)
+    check_target(out, ("toml",), force=force)
+    check_target(plot, PICTURES, force=force)
     from umbilical.design.design import design as compute
     from umbilical.design.score import Demands
 
     if not 0.0 <= gain <= 100.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
         raise BadParameter("margins are 0 to 100 dB, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
     demands = Demands(10.0 ** (gain / 20.0), math.radians(phase), delay)
+    choice = numbers(periods, "--periods", above=0.0, what="times above 0 s, such as 0.0005,0.001")
     announce_compilation()
     with bar("designing") as advance:
         found = compute(
-            chosen, objective, inner=inner, periods=_periods(periods), demands=demands, limits=_limits(limits),
+            chosen, objective, inner=inner, periods=choice, demands=demands, limits=_limits(limits),
             operating_thrust=operating_thrust, progress=advance,
         )  # fmt: skip
-    files = _write(found, out, plot, force)
-    return conclude(
-        conclusion(found), text=lambda: text(found), document=lambda: document(found), files=files, as_json=as_json
-    )
+    written = {}
+    if out:
+        from umbilical import files
 
-
-def _periods(words: str | None) -> list[float]:
-    """``0.001,0.002`` as periods, s.
-
-    Raises:
-        BadParameter: not positive numbers.
-    """
-    try:
-        found = [float(word) for word in words.split(",")] if words else []
-    except ValueError:
-        found = [-1.0]
-    if not all(0.0 < period < math.inf for period in found):
-        raise BadParameter(f"'{words}' are not times above 0 s, with commas between them", param_hint="--periods")
-    return found
+        written["scenario"] = str(files.write(out, found.after.scenario.to_toml().encode(), force=force))
+    written |= draw(found.plot, plot, force=force)
+    return conclude_result(found, files=written, as_json=as_json)
 
 
 def _limits(words: str | None) -> Limits:
@@ -111,17 +96,3 @@ def _limits(words: str | None) -> Limits:
                 f"'{word}' is not voltage=, speed=, chatter= or noise= and a number above 0", param_hint="--limits"
             )
     return Limits(**given)
-
-
-def _write(found: Design, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
-    written = {}
-    if out:
-        from umbilical import files
-
-        text_ = found.after.scenario.to_toml()
-        written["scenario"] = str(files.write(out, text_.encode(), force=force))
-    if plot:
-        from umbilical.plots import plot_design, save_figure
-
-        written["plot"] = str(save_figure(plot_design(found), plot, force=force))
-    return written

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
-from typer import Argument, BadParameter, Option
+from typer import Argument, Option
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Changes, Force, Json, Own, Plot, Thrust
+from umbilical.cli.conclusion import conclude_result
+from umbilical.cli.options import Changes, Force, Json, Own, Plot, Thrust, numbers
 from umbilical.cli.progress import bar
 from umbilical.cli.running import load_changed, own_controller
 from umbilical.cli.speech import tell
-from umbilical.cli.targets import PICTURES, check_target
-from umbilical.faces.margins import conclusion, document, text
-
-if TYPE_CHECKING:
-    from umbilical.design.margins import MarginReport
+from umbilical.cli.targets import PICTURES, check_target, draw
 
 GRIDS, FINEST = (32, 64, 128), 256
 """Elements of the grids that are asked where none are named, and of the last one where those do not agree."""
@@ -57,52 +51,23 @@ def margins(
     what its linearisation does.
     """
     chosen = load_changed(scenario, changes or [])
-    if plot:
-        check_target(plot, PICTURES, force=force)
+    check_target(plot, PICTURES, force=force)
     from umbilical.design.margins import margins as compute
 
-    elements = GRIDS if grid is None else [round(number) for number in _numbers(grid, "--grid") or [] if number]
+    elements = GRIDS if grid is None else [round(number) for number in numbers(grid, "--grid") if number]
     finest = FINEST if grid is None else 0
     own = own_controller(controller, chosen)
     with bar("margins") as advance:
         report = compute(
             chosen,
-            _numbers(lengths),
+            numbers(lengths, "--lengths") or None,
             operating_thrust,
             controller=own,
             elements=elements,
             finest=finest,
             progress=advance,
         )
-    files = _draw(report, plot, force)
-    return conclude(
-        conclusion(report), text=lambda: text(report), document=lambda: document(report), files=files, as_json=as_json
-    )
-
-
-def _numbers(words: str | None, option: str = "--lengths") -> list[float] | None:
-    """Comma-separated numbers.
-
-    Raises:
-        BadParameter: something between the commas is not a finite number.
-    """
-    if words is None:
-        return None
-    try:
-        found = [float(word) for word in words.split(",")]
-    except ValueError:
-        found = [math.nan]
-    if not all(map(math.isfinite, found)):
-        raise BadParameter(f"'{words}' is not a list of numbers such as 300,400", param_hint=option)
-    return found
-
-
-def _draw(report: MarginReport, plot: Path | None, force: bool) -> dict[str, str]:
-    if not plot:
-        return {}
-    if report.doubt:
+    if plot and report.doubt:
         tell(f"{plot}: not drawn, there are no margins to draw")
-        return {}
-    from umbilical.plots import plot_margins, save_figure
-
-    return {"plot": str(save_figure(plot_margins(report), plot, force=force))}
+        plot = None
+    return conclude_result(report, files=draw(report.plot, plot, force=force), as_json=as_json)

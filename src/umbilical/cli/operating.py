@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Changes, Force, Json, Plot
-from umbilical.cli.targets import PICTURES, check_target
+from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.faces.conclusion import Conclusion
 from umbilical.faces.text import table
 
@@ -66,9 +66,8 @@ def operate(
     from umbilical.screening import operate as limits
     from umbilical.screening.criteria import parse_criterion
 
-    for path, kinds in ((plot, PICTURES), (out, ("nc",))):
-        if path:
-            check_target(path, kinds, force=force)
+    check_target(plot, PICTURES, force=force)
+    check_target(out, ("nc",), force=force)
     criteria = [parse_criterion(text) for text in criterion or ["slack=1e-2/3h"]]
     axes = {
         "depth": values(depth, "--depth", 1.0, 12000.0),
@@ -145,8 +144,7 @@ def lower(
     from umbilical.screening import lower as descend
     from umbilical.sea import Spectrum
 
-    if plot:
-        check_target(plot, PICTURES, force=force)
+    check_target(plot, PICTURES, force=force)
     loaded = _load(operation, changes)
     depths = np.sort(values(depth, "--depth", 1.0, 12000.0))
     if depths.size < 2:
@@ -267,8 +265,4 @@ def _store(found: Any, out: Path | None, plot: Path | None, force: bool) -> dict
         from umbilical.formats import to_netcdf
 
         files["result"] = str(write(out, to_netcdf(found.to_dataset()), force=force))
-    if plot:
-        from umbilical.plots import save_figure
-
-        files["plot"] = str(save_figure(found.plot(), plot, force=force))
-    return files
+    return files | draw(found.plot, plot, force=force)

@@ -10,7 +10,7 @@ from typer import Argument, Option
 
 from umbilical.cli.options import Changes, Force, Json, Own, Plot
 from umbilical.cli.speech import say, say_json, tell
-from umbilical.cli.targets import PICTURES, check_target
+from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.errors import OutputError, Problem, ScenarioError
 
 if TYPE_CHECKING:
@@ -41,11 +41,10 @@ def run(
     Lists are numbered from 1. A diverged or interrupted run is stored and drawn as far as it went.
     """
     chosen = load_changed(scenario, changes or [])
+    check_target(out, ("nc",), force=force)
+    check_target(plot, PICTURES, force=force)
     if out:
-        check_target(out, ("nc",), force=force)
         _check_size(chosen, out)
-    if plot:
-        check_target(plot, PICTURES, force=force)
     from umbilical.cli.progress import simulate_visibly
 
     result = simulate_visibly(chosen, own_controller(controller, chosen))
@@ -113,13 +112,10 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     files = {}
     if out:
         files["result"] = str(run.save(out, force=force))
-    if plot and run["time"].size > 1:
-        from umbilical.plots import plot_overview, save_figure
-
-        files["plot"] = str(save_figure(plot_overview(run), plot, force=force))
-    elif plot:
+    if plot and run["time"].size < 2:
         tell(f"{plot}: not drawn, the run ended before there was anything to draw")
-    return files
+        return files
+    return files | draw(run.plot, plot, force=force)
 
 
 def _report(run: Run, files: dict[str, str], source: str, controller: str | None) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Anew, Changes, Force, Json, Resume, Trust
+from umbilical.cli.options import Anew, Changes, Force, Jobs, Json, Resume, Trust
 from umbilical.cli.speech import say, tell
 from umbilical.errors import FileError
 
@@ -21,9 +21,7 @@ def sweep(
     study: Annotated[str, Argument(help="A study's name, a .toml file, or the .nc result of one to run again.")],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; named as the study if left out.")] = None,
-    jobs: Annotated[
-        int | None, Option("--jobs", metavar="N", min=1, max=4096, help="How many at once; all cores.")
-    ] = None,
+    jobs: Jobs = None,
     processes: Annotated[bool, Option("--processes", help="Processes instead of threads.")] = False,
     dask: Annotated[str | None, Option("--dask", metavar="ADDRESS|local", help="Workers of a Dask cluster.")] = None,
     trust: Trust = False,

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from umbilical import files
 from umbilical.errors import OutputError
@@ -10,20 +12,31 @@ from umbilical.errors import OutputError
 PICTURES = ("png", "pdf", "svg")
 
 
-def check_target(path: Path, kinds: tuple[str, ...], *, force: bool) -> None:
+def check_target(path: Path | None, kinds: tuple[str, ...], *, force: bool) -> None:
     """Refuse a file that could not be written later.
 
     Args:
-        path: the file.
+        path: the file; None where none was asked for.
         kinds: endings it may have, without the dot.
         force: whether it may replace a file.
 
     Raises:
         OutputError: another ending, or as for :func:`umbilical.files.check`.
     """
+    if path is None:
+        return
     if path.suffix.lower().removeprefix(".") not in kinds:
         raise OutputError(f"{path}: the name must end with {' or '.join('.' + kind for kind in kinds)}")
     files.check(path, force=force)
+
+
+def draw(picture: Callable[[], Any], path: Path | None, *, force: bool) -> dict[str, str]:
+    """Store what a function draws, axes or a figure, where a path was given; the file by its role."""
+    if path is None:
+        return {}
+    from umbilical.plots import as_figure, save_figure
+
+    return {"plot": str(save_figure(as_figure(picture()), path, force=force))}
 
 
 def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:

@@ -9,10 +9,10 @@ from typing import Annotated
 from typer import Argument, Option
 
 from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Anew, Changes, Json, Resume, Trust
+from umbilical.cli.options import Anew, Changes, Jobs, Json, Resume, Trust
 from umbilical.cli.speech import tell
 from umbilical.cli.sweeping import load_changed_study, refuse_code_of_results
-from umbilical.cli.targets import PICTURES, check_target
+from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.faces.tuning import conclusion, document, text
 
 
@@ -20,9 +20,7 @@ def tune(
     study: Annotated[str, Argument(help="A study with a section [tuning]: its name or a .toml file.")],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; NAME-tuned if left out.")] = None,
-    jobs: Annotated[
-        int | None, Option("--jobs", metavar="N", min=1, max=4096, help="Members at once; all cores.")
-    ] = None,
+    jobs: Jobs = None,
     picture: Annotated[
         Path | None, Option("--plot", metavar="FILE", help="Draw the front: a .png, .pdf or .svg.")
     ] = None,
@@ -50,8 +48,7 @@ def tune(
 
     chosen = load_changed_study(study, changes or [])
     refuse_code_of_results(study, chosen)
-    if picture:
-        check_target(picture, PICTURES, force=force or resume)
+    check_target(picture, PICTURES, force=force or resume)
     folder = out or Path(f"{chosen.name}-tuned")
     engine = default_engine(chosen, jobs or default_jobs())
     announce_compilation()
@@ -71,10 +68,8 @@ def tune(
         raise
     files = {"trials": str(folder / "tuning.json")}
     files |= {f"scenario {k}": str(folder / name) for k, name in enumerate(found.files, start=1)}
-    if picture and found.front:
-        from umbilical.plots import as_figure, plot_tuning, save_figure
-
-        files["plot"] = str(save_figure(as_figure(plot_tuning(found)), picture, force=force or resume))
+    if found.front:
+        files |= draw(found.plot, picture, force=force or resume)
     return conclude(
         conclusion(found),
         text=lambda: "\n\n".join([text(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from umbilical.cli.conclusion import conclude
+from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Force, Json
 from umbilical.cli.targets import make_room
 
@@ -39,15 +39,11 @@ def verify(
         make_room(out, targets, force=force)
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.verify import verify_all
-    from umbilical.verify.summary import conclusion, document, text
 
     announce_compilation()
     with bar("verifying") as advance:
         found = verify_all(quick, progress=advance)
-    files = _write(found, targets, force)
-    return conclude(
-        conclusion(found), text=lambda: text(found), document=lambda: document(found), files=files, as_json=as_json
-    )
+    return conclude_result(found, files=_write(found, targets, force), as_json=as_json)
 
 
 def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:
