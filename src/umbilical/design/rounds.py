@@ -32,8 +32,8 @@ SAFE_NOISE = 0.98
 """A search's share of the limit on noise: its frequencies are few and its gains not rounded yet."""
 EXPLAINED = 1.1
 """So much more noise in a simulation than predicted is still the sensors': both are estimates."""
-SEARCH, TRIAL = 0.7, 0.3
-"""Shares of a round's progress."""
+SEARCH, STEPS, TRIAL = 0.5, 0.2, 0.3
+"""Shares of a round's progress; further steps with more reserve are seldom needed and not in it."""
 LIKELY = 0.6
 """Share of the progress still ahead that a round is given: mostly there is one only."""
 
@@ -163,15 +163,15 @@ def design_within(task: Task, limits: Limits, progress: Callable[[float], None])
 def _round(task: Task, begun: Values | None, progress: Callable[[float], None]) -> tuple[Values, Side]:
     eager = replace(task, demands=task.demands.beyond(RESERVES[0]))
     near = explore(eager, generations=GENERATIONS, begun=begun, progress=_part(progress, 0.0, SEARCH))
-    values = _settled(task, near)
+    values = _settled(task, near, _part(progress, SEARCH, STEPS))
     return values, side(task, values, _part(progress, 1.0 - TRIAL, TRIAL))
 
 
-def _settled(task: Task, near: Values) -> Values:
+def _settled(task: Task, near: Values, progress: Callable[[float], None]) -> Values:
     """Rounded gains that keep the demands: at the edge of what is allowed, and further inside where they do not."""
     values = near
     for reserves in RESERVES:
-        values = follow(replace(task, demands=task.demands.beyond(reserves)), near)
+        values = follow(replace(task, demands=task.demands.beyond(reserves)), near, progress)
         if _keeps(task, values):
             break
     return values

@@ -1,8 +1,8 @@
-"""The search for gains: differential evolution over a few knobs, the same result every time and everywhere.
+"""The search for gains: differential evolution, then random steps, over a few knobs; the same result everywhere.
 
-The last bits of a number depend on the processor, and a local search that takes differences of a largest value makes
-other gains of them. So points and what is asked of them are rounded before anything is decided by them, and the
-differences are taken over steps that are large beside the rounding.
+The last bits of a number depend on the processor, and a score near a double pole turns them into its eighth digit. A
+local search that takes differences of scores makes other gains of that, above all in directions that hardly matter.
+So a search only compares scores, of points that are rounded, and a point is better only where it is clearly so.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ MEMBERS = 6
 DIGITS = 4
 """Significant digits of a gain that is found; more would say something about the search only."""
 POINT_DIGITS, VALUE_DIGITS = 9, 8
-"""Decimals of a knob's logarithm and of what is asked of it; the processor moves the 13th."""
-DIFFERENCE = 1e-4
-"""Step of a knob's logarithm over which a local search takes differences."""
+"""Decimals of a knob's logarithm and of what is asked of it; the processor moves the 8th to the 13th."""
+BETTER = 1e-6
+"""Gain in cost from which on a step is taken: far above what the processor moves."""
 STRICTNESS = 100.0
 """Cost of a round trip 1 too large: a tenth of it outweighs any reflection."""
 CALMNESS = 10.0
@@ -40,7 +40,11 @@ WORST = 1e4
 """Cost of an unstable pole: nothing else means anything then."""
 FIRMER = 0.02
 """By so much, in logarithms, the ROV shall be held firmer than before where both are asked for."""
-LOCAL_STEPS = 40
+LOCAL_STEPS = 700
+STEP, SMALLEST_STEP = 0.1, 2e-3
+"""Standard deviation of a random step in a knob's logarithm: the first, and the smallest."""
+LONGER, SHORTER, FURTHER = 1.3, 0.94, 1.5
+"""Factors of the step after success and after failure, and of a step that is tried again where it helped."""
 
 
 @dataclass(frozen=True)
@@ -153,24 +157,44 @@ def explore(
     return task.values(best.x)
 
 
-def follow(task: Task, begun: Values) -> Values:
+def follow(task: Task, begun: Values, progress: Callable[[float], None] | None = None) -> Values:
     """From gains near the best ones to the edge of what is allowed, judged on many frequencies, and rounded."""
-    from scipy.optimize import minimize
-
-    scores, point = Scores(task, task.judge()), _point(task, begun)
-    local = minimize(
-        scores.objective, point, method="SLSQP", bounds=task.bounds,
-        constraints={"type": "ineq", "fun": scores.all_room},
-        options={"maxiter": LOCAL_STEPS, "ftol": 1e-5, "eps": DIFFERENCE},
-    )  # fmt: skip
-    best = min((point, local.x), key=scores.cost)
+    scores = Scores(task, task.judge(), LOCAL_STEPS, progress)
+    best = _stepwise(scores, _point(task, begun), *_inside(task))
     return {key: rounded(value) for key, value in task.values(best).items()}
 
 
-def _point(task: Task, values: Values) -> np.ndarray:
-    """The logarithms of values, moved just inside the bounds, where rounding takes none of them out again."""
+def _stepwise(scores: Scores, x: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+    """A point reached by random steps of some knobs; a step that helped is tried again, further."""
+    draw, size, least = np.random.default_rng(1), STEP, scores.cost(x)
+    again = np.zeros_like(x)
+    for _ in range(LOCAL_STEPS):
+        repeated = bool(again.any())
+        tried = np.clip(x + (again if repeated else size * _some(draw, x.size)), low, high)
+        cost = scores.cost(tried, least - BETTER)
+        better = cost < least - BETTER
+        size = max(SMALLEST_STEP, size * (LONGER if better else 1.0 if repeated else SHORTER))
+        again = FURTHER * (tried - x) if better else np.zeros_like(x)
+        x, least = (tried, cost) if better else (x, least)
+        scores.generation(x, 0.0)
+    return x
+
+
+def _some(draw: np.random.Generator, knobs: int) -> np.ndarray:
+    """Standard normal numbers for some of the knobs, at least one, and zeros for the others."""
+    chosen = draw.permutation(knobs) < draw.integers(1, knobs + 1)
+    return np.where(chosen, draw.standard_normal(knobs), 0.0)
+
+
+def _inside(task: Task) -> np.ndarray:
+    """The bounds, a little narrower, so that rounding takes no point out again; shape (2, knobs)."""
     low, high = np.transpose(task.bounds)
-    return np.clip(np.log([values[knob.key] for knob in task.knobs]), low + 1e-9, high - 1e-9)
+    return np.stack([low + 1e-9, high - 1e-9])
+
+
+def _point(task: Task, values: Values) -> np.ndarray:
+    """The logarithms of values, moved just inside the bounds."""
+    return np.clip(np.log([values[knob.key] for knob in task.knobs]), *_inside(task))
 
 
 class Scores:
@@ -230,15 +254,11 @@ class Scores:
         ceiling = self._task.noise_ceiling
         return round(float(np.log(ceiling / self.noise(x))), VALUE_DIGITS) if np.isfinite(ceiling) else 0.0
 
-    def all_room(self, x: np.ndarray) -> np.ndarray:
-        """Room and what the noise leaves."""
-        return np.append(self.room(x), self.calm(x))
-
-    def cost(self, x: np.ndarray) -> float:
-        """Objective and what is missing to the rest in one number."""
-        missing = np.maximum(0.0, -self.room(x)).sum()
-        loud = max(0.0, -self.calm(x))
-        return self.objective(x) + STRICTNESS * float(missing) + CALMNESS * loud + WORST * abs(self.score(x).unstable)
+    def cost(self, x: np.ndarray, enough: float = np.inf) -> float:
+        """Objective and what is missing to the rest in one number; of one that is large enough without it, no noise."""
+        missing = float(np.maximum(0.0, -self.room(x)).sum())
+        quiet = self.objective(x) + STRICTNESS * missing + WORST * abs(self.score(x).unstable)
+        return quiet if quiet >= enough else quiet + CALMNESS * max(0.0, -self.calm(x))
 
     def generation(self, x: np.ndarray, convergence: float) -> None:
         """One generation is done."""
