@@ -39,6 +39,7 @@ if TYPE_CHECKING:
         plot_study,
         plot_tip,
         plot_weather,
+        plot_winch,
     )
     from umbilical.report.player import show
     from umbilical.run import Run, Status, open_run
@@ -87,6 +88,7 @@ _HOMES = {
     "plot_study": "umbilical.plots",
     "plot_tip": "umbilical.plots",
     "plot_weather": "umbilical.plots",
+    "plot_winch": "umbilical.plots",
     "preset_names": "umbilical.library",
     "show": "umbilical.report.player",
     "simulate": "umbilical.engine.simulate",
@@ -131,6 +133,7 @@ __all__ = [
     "plot_study",
     "plot_tip",
     "plot_weather",
+    "plot_winch",
     "preset_names",
     "show",
     "simulate",

@@ -15,7 +15,7 @@ from matplotlib.text import Annotation
 from umbilical import Run, load, plots, simulate
 from umbilical.cli.drawing import Kind
 from umbilical.errors import OutputError
-from umbilical.plots.figure import at_sigma
+from umbilical.plots.figure import at_sigma, draw
 from umbilical.plots.observers import ESTIMATES
 
 SINGLE = {
@@ -107,11 +107,63 @@ def test_faults_are_marked_and_named(run):
     assert marks(axes, "--") == {1.0, 1.5}
 
 
-def test_other_jumps_are_marked_but_not_named():
+def test_other_jumps_are_marked_and_named():
     pulse = [{"kind": "pulse", "value": 1.0, "start": 0.25, "end": 0.75}]
     axes = plots.plot_tip(simulate(load("crosscheck-none", {"duration": 1.0, "environment.payload_force": pulse})))
-    assert not axes.texts
+    named = {text.xy[0]: text.get_text() for text in axes.texts if isinstance(text, Annotation)}
+    assert named == {0.25: "force on the ROV", 0.75: "force on the ROV"}
     assert marks(axes, ":") == {0.25, 0.75}
+
+
+def test_the_winch_has_a_panel_where_it_moves(run, free):
+    axes = plots.plot_winch(run)
+    beside = next(other for other in axes.figure.axes if other is not axes)
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), run["length"].values)
+    np.testing.assert_array_equal(beside.lines[0].get_ydata(), run["payout_speed"].values)
+    panels = {axes.get_title(loc="left") for axes in plots.plot_overview(run).axes}
+    assert "winch" in panels
+    assert "winch" not in {axes.get_title(loc="left") for axes in plots.plot_overview(free).axes}
+
+
+def test_no_motor_hides_another(run):
+    lines = {line.get_label(): line.get_linewidth() for line in plots.plot_motors(run, "motor_voltage").lines}
+    assert lines["motor 1"] > lines["motor 2"]
+
+
+def test_a_voltage_limit_is_drawn_where_it_is_near_and_named_where_not(run):
+    motors = len(run.scenario.motors)
+    for limit, drawn in ((1.0, {1.0, -1.0}), (300.0, set())):
+        limited = simulate(run.scenario.replace({f"motors.{k + 1}.voltage_limit": limit for k in range(motors)}))
+        axes = plots.plot_motors(limited, "motor_voltage")
+        levels = {float(np.asarray(line.get_ydata())[0]) for line in axes.lines if line.get_linestyle() == "-."}
+        assert levels == drawn
+        assert any("limit" in text.get_text() for text in axes.texts) != bool(drawn)
+
+
+def test_what_falls_between_stored_samples_is_told(run):
+    sparse = simulate(run.scenario.replace({"output.interval": 1.0}))
+    assert any("between samples" in text.get_text() for text in plots.plot_motors(sparse, "motor_voltage").texts)
+    dense = simulate(run.scenario.replace({"output.interval": run.scenario.control.period}))
+    assert not any("between samples" in text.get_text() for text in plots.plot_motors(dense, "motor_voltage").texts)
+
+
+def test_chatter_is_a_band_from_the_lowest_to_the_highest_value(run):
+    axes, flat = Figure().add_subplot(), run["tip_displacement"].copy(data=np.zeros(run["time"].size))
+    fast = flat.copy(data=np.where(np.arange(flat.size) % 2, 3.0, -2.0))
+    repeated = fast.isel(time=np.arange(2000) % fast.size).assign_coords(time=np.arange(2000.0))
+    draw(axes, flat)
+    draw(axes, repeated, "fast")
+    (band,) = axes.collections
+    heights = band.get_paths()[0].vertices[:, 1]
+    assert (len(axes.lines), heights.min(), heights.max()) == (1, -2.0, 3.0)
+
+
+def test_of_a_fast_disturbance_so_much_is_shown_that_its_estimate_can_be_told_from_it():
+    fast = [{"kind": "sine", "amplitude": 1.0, "frequency": 100.0}]
+    whole = simulate(load("paper", {"duration": 5.0, "motors.1.voltage_disturbance": fast, "output.interval": 0.005}))
+    shown = {k: plots.plot_observers(whole, "motor_disturbance", motor=k).get_xlim()[1] for k in (1, 2)}
+    assert shown[1] < 1.0
+    assert shown[2] == 5.0
 
 
 def test_no_panel_for_what_a_run_does_not_have(run, free):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Kind = Literal[
-    "overview", "tip", "positions", "cable", "motors", "observers", "energy", "shape", "tension",
+    "overview", "tip", "positions", "cable", "winch", "motors", "observers", "energy", "shape", "tension",
     "distribution", "comparison", "map", "sensitivity",
 ]  # fmt: skip
 

@@ -7,9 +7,10 @@ end of one step takes the value before it and the start of the next the value af
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -98,25 +99,38 @@ class Inputs(NamedTuple):
 
 def published_jumps(scenario: Scenario) -> tuple[float, ...]:
     """Every instant within the run at which something outside jumps, increasing, s."""
+    return tuple(named_jumps(scenario))
+
+
+def named_jumps(scenario: Scenario) -> dict[float, tuple[str, ...]]:
+    """What jumps at every instant within the run at which something outside does, by instant, increasing, s."""
+    found: dict[float, tuple[str, ...]] = {}
+    last = -inf
+    for t, name in sorted(
+        (t, name) for name, times in _jumps(scenario) for t in times if 0.0 <= t <= scenario.duration
+    ):
+        last = last if t - last <= slack(t) else t  # what differs by round-off is one instant
+        found[last] = tuple(dict.fromkeys((*found.get(last, ()), name)))
+    return found
+
+
+def _jumps(scenario: Scenario) -> Iterator[tuple[str, Iterable[float]]]:
     environment = scenario.environment
     named = [
-        environment.payload_force,
-        environment.vessel_motion,
-        variation_of(environment),
-        *(load.signal for load in environment.cable_load),
-        *(m.torque_disturbance for m in scenario.motors),
-        *(m.voltage_disturbance for m in scenario.motors),
+        ("force on the ROV", environment.payload_force),
+        ("vessel", environment.vessel_motion),
+        ("current", variation_of(environment)),
+        *(("load on the cable", load.signal) for load in environment.cable_load),
+        *((f"torque on motor {k}", m.torque_disturbance) for k, m in enumerate(scenario.motors, start=1)),
+        *((f"voltage of motor {k}", m.voltage_disturbance) for k, m in enumerate(scenario.motors, start=1)),
     ]
     if (rope := scenario.rope) is not None:
-        named += [rope.vessel_across, rope.vessel_heave, rope.force_across, rope.force_up]
-    instants = {t for signal in named for t in signals.jumps(signal)}
-    instants |= {environment.vessel_ramp} | set(winch.jumps(scenario.winch))
-    instants |= set(faults.jumps(scenario.faults, scenario.duration))
-    found: list[float] = []
-    for t in sorted(t for t in instants if 0.0 <= t <= scenario.duration):
-        if not found or t - found[-1] > slack(t):  # what differs by round-off is one instant
-            found.append(t)
-    return tuple(found)
+        named += [("vessel", rope.vessel_across), ("vessel", rope.vessel_heave)]
+        named += [("force on the ROV", rope.force_across), ("force on the ROV", rope.force_up)]
+    yield from ((name, signals.jumps(signal)) for name, signal in named)
+    yield "vessel", (environment.vessel_ramp,)
+    yield "winch", winch.jumps(scenario.winch)
+    yield "fault", faults.jumps(scenario.faults, scenario.duration)
 
 
 def variation_of(environment: Environment) -> signals.Signal:

@@ -32,12 +32,14 @@ from umbilical.plots.study_map import plot_map
 from umbilical.plots.tip import plot_tip
 from umbilical.plots.tuning import plot_tuning
 from umbilical.plots.weather import plot_weather
+from umbilical.plots.winch import plot_winch
 
 PLOTS = {
     "overview": plot_overview,
     "tip": plot_tip,
     "positions": plot_positions,
     "cable": plot_cable,
+    "winch": plot_winch,
     "motors": plot_all_motors,
     "observers": plot_all_observers,
     "energy": plot_energy,
@@ -76,5 +78,6 @@ __all__ = [
     "plot_tip",
     "plot_tuning",
     "plot_weather",
+    "plot_winch",
     "save_figure",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -26,6 +26,11 @@ MANY_JUMPS = 20
 """More marks than this would hide the curves."""
 WORDS_WIDTH = 0.3
 """Share of the time axis that the name of an event takes at most."""
+UPRIGHT_WIDTH = 0.035
+"""Share of the time axis that an upright name takes."""
+MOST_TURNS, BAND = 300, 400
+"""A signal that turns more often is drawn as a band, lowest and highest value in each of so many columns."""
+_PAPER = {"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5}
 PLAIN_POWERS = (-4, 5)
 """Powers of ten between which ticks are written out."""
 CLOCKS: dict[str, dict[str, None]] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
@@ -115,13 +120,37 @@ def axis_label(array: xarray.DataArray) -> str:
     return " ".join(part for part in parts if part)
 
 
-def draw(ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, dashed: bool = False) -> None:
-    """One channel of time as a line. A dashed line lies on top, so that both show where they agree."""
-    (line,) = ax.plot(array["time"].values, array.values, color=COLOURS[colour % len(COLOURS)], linewidth=1.4)
+def draw(
+    ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, dashed: bool = False, width: float = 1.4
+) -> None:
+    """One channel of time as a line, or as a band where it turns too often for a line.
+
+    A dashed line lies on top, so that both show where they agree.
+    """
+    time, values, paint = array["time"].values, array.values, COLOURS[colour % len(COLOURS)]
+    if turns(values).size > MOST_TURNS:
+        edges = np.linspace(0, time.size - 1, BAND + 1).astype(int)[:-1]
+        low, high = np.minimum.reduceat(values, edges), np.maximum.reduceat(values, edges)
+        ax.fill_between(time[edges], low, high, step="post", color=paint, alpha=0.6, linewidth=0.5, label=label or None)
+        return
+    (line,) = ax.plot(time, values, color=paint, linewidth=width)
     if label:
         line.set_label(label)
     if dashed:
         line.set(linestyle=(0, (4, 3)), linewidth=1.2, zorder=3)
+
+
+def turns(values: np.ndarray) -> np.ndarray:
+    """Where a signal turns round, as places among its samples."""
+    steps = np.flatnonzero(np.diff(values))
+    rising = np.diff(values)[steps] > 0.0
+    return steps[1:][rising[1:] != rising[:-1]]
+
+
+def note(ax: Axes, words: str) -> None:
+    """A remark inside the axes, below on the left."""
+    if words:
+        ax.text(0.01, 0.02, words, transform=ax.transAxes, fontsize=8, color="#404040", bbox=_PAPER)
 
 
 def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
@@ -142,28 +171,33 @@ def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
 
 
 def mark_events(ax: Axes, run: Run) -> None:
-    """Dashed lines, named, where faults begin and end; dotted ones where anything else jumps."""
-    from umbilical.plant.exogenous import published_jumps
+    """Dashed lines where faults begin and end, dotted ones where anything else jumps, all of them named."""
+    from umbilical.plant.exogenous import named_jumps
 
-    last = float(run["time"].values[-1])
+    last = float(ax.dataLim.x1)  # of what is shown
     named = fault_words(run)
-    jumps = [t for t in published_jumps(run.scenario) if 0.0 < t < last and t not in named]
-    for t in jumps if len(jumps) <= MANY_JUMPS else []:
-        ax.axvline(t, color=QUIET, linewidth=0.8, linestyle=":")
+    others = {t: words for t, words in named_jumps(run.scenario).items() if 0.0 < t < last and t not in named}
+    if len(others) <= MANY_JUMPS:
+        _mark_jumps(ax, others, last)
     for t, words in named.items():
         if t < last:
             ax.axvline(t, color=QUIET, linewidth=1.0, linestyle="--")
-            ax.annotate(
-                words,
-                (t, 1.0),
-                xycoords=("data", "axes fraction"),
-                xytext=(3, -2 - 10 * _lines_before(t, named, WORDS_WIDTH * last)),
-                textcoords="offset points",
-                va="top",
-                fontsize=8,
-                color="#404040",
-                bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.6, "pad": 0.5},
-            )
+            _name(ax, t, words, (3, -2 - 10 * _lines_before(t, named, WORDS_WIDTH * last)), va="top")
+
+
+def _mark_jumps(ax: Axes, jumps: dict[float, tuple[str, ...]], last: float) -> None:
+    """Named upright along their lines; of those close together only the first."""
+    free = 0.0
+    for t, words in jumps.items():
+        ax.axvline(t, color=QUIET, linewidth=0.8, linestyle=":")
+        if t >= free:
+            _name(ax, t, ", ".join(words), (2, -2), va="top", rotation=90)
+            free = t + UPRIGHT_WIDTH * last
+
+
+def _name(ax: Axes, t: float, words: str, offset: tuple[float, float], **how: Any) -> None:
+    style: dict[str, Any] = {"fontsize": 8, "color": "#404040", "bbox": _PAPER, "textcoords": "offset points"}
+    ax.annotate(words, (t, 1.0), xycoords=("data", "axes fraction"), xytext=offset, **style, **how)
 
 
 def _lines_before(t: float, named: dict[float, str], near: float) -> int:

@@ -6,10 +6,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
 from matplotlib.patches import Circle
 
 from umbilical.analysis.sampled import loop_response
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, as_figure, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,8 +28,8 @@ DRAWN_MODES = 12
 """Modes up to which L is drawn itself; above, a band says where it is with the echo in any phase."""
 PER_MODE = 2_000
 """Points of the curve for each mode, which are narrow."""
-CIRCLES = 40
-"""For each length."""
+CIRCLES, STRAIGHT = 60, 4.0
+"""How many, and from which radius on they pass the picture as straight lines."""
 
 
 def plot_margins(report: MarginReport) -> Figure:
@@ -60,19 +62,41 @@ def plot_reflection(report: MarginReport, *, ax: Axes) -> Axes:
 
 
 def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
-    """L in the complex plane near 1, where the closed loop has a pole on the unit circle."""
-    for number, j in enumerate(report.judgements):
-        for centre, radius in _circles(j):
-            place = (float(centre.real), float(centre.imag))
-            ax.add_patch(Circle(place, radius, fill=False, edgecolor=COLOURS[number], linewidth=0.6))
-        if j.margins:
-            edges = [1.0 / g.size for g in (j.margins.gain_low, j.margins.gain_high) if 0.0 < g.size < np.inf]
-            ax.plot(edges, np.zeros(len(edges)), "|", color=COLOURS[number], markersize=12)
+    """L in the complex plane near 1, where the closed loop has a pole on the unit circle, at the length where it comes
+    closest: a circle for each frequency, since the echo has any phase, and an arrow where the circles are nearest to 1.
+    """
+    closest = min(report.judgements, key=lambda j: float(_distances(j).min()))
+    colours = ScalarMappable(LogNorm(*closest.sweep.coarse[[_first_mode(closest), -1]]), "viridis")
+    for w, centre, radius in _circles(closest):
+        place = (float(centre.real), float(centre.imag))
+        ax.add_patch(Circle(place, radius, fill=False, edgecolor=colours.to_rgba(w), linewidth=0.7, alpha=0.8))
+    bar = as_figure(ax).colorbar(colours, ax=ax, label="frequency [rad/s]", pad=0.02)
+    bar.ax.tick_params(labelsize=8)
     circle = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200))
     ax.plot(np.real(circle), np.imag(circle), color=QUIET, linestyle=":", linewidth=1.0)
     ax.plot([1.0], [0.0], "+", color="black", markersize=10)
+    _point_at_closest(ax, closest)
     ax.set(xlim=(-SHOWN_LOOP, SHOWN_LOOP), ylim=(-SHOWN_LOOP, SHOWN_LOOP), aspect="equal")
-    return _finish(ax, "L near 1, echo in any phase; bars: gain margins", "imaginary part", "real part")
+    return _finish(ax, f"L near 1 at {closest.length:g} m, echo in any phase", "imaginary part", "real part")
+
+
+def _point_at_closest(ax: Axes, j: Judgement) -> None:
+    """An arrow to the point of all circles that is nearest to 1, with its frequency and distance."""
+    distances = _distances(j)
+    k = int(distances.argmin())
+    centre, radius = (values[k] for values in j.sweep.circles())
+    nearest = centre + radius * (1.0 - centre) / (abs(1.0 - centre) or 1.0)
+    words = f"{distances[k]:.2g} from 1\nat {j.sweep.coarse[k]:.3g} rad/s"
+    box = {"facecolor": "white", "edgecolor": QUIET, "pad": 2.0, "linewidth": 0.5}
+    arrow = {"arrowstyle": "->", "color": "black"}
+    place = (0.55 * SHOWN_LOOP, -0.7 * SHOWN_LOOP)
+    ax.annotate(words, (nearest.real, nearest.imag), place, fontsize=8, bbox=box, arrowprops=arrow, ha="center")
+
+
+def _distances(j: Judgement) -> np.ndarray:
+    """How far from 1 the circle of each frequency is."""
+    centre, radius = j.sweep.circles()
+    return np.abs(np.abs(centre - 1.0) - radius)
 
 
 def plot_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
@@ -111,12 +135,19 @@ def _first_modes(j: Judgement) -> tuple[np.ndarray, np.ndarray]:
     return w, loop_response(s.cable, s.loop, 1j * w).loop
 
 
-def _circles(j: Judgement) -> Iterator[tuple[complex, float]]:
-    """Where L is at some frequencies from the first mode on, the echo in any phase."""
+def _first_mode(j: Judgement) -> int:
+    return min(int(np.searchsorted(j.sweep.coarse, 2.0 * np.pi / j.sweep.cable.round_trip)), j.sweep.coarse.size - 2)
+
+
+def _circles(j: Judgement) -> Iterator[tuple[float, complex, float]]:
+    """Frequency, centre and radius of where L is from the first mode on, the echo in any phase.
+
+    Those that pass the picture as straight lines are left out, but for the one nearest to 1.
+    """
     centre, radius = j.sweep.circles()
-    first = np.searchsorted(j.sweep.coarse, 2.0 * np.pi / j.sweep.cable.round_trip)
-    for k in np.unique(np.linspace(first, centre.size - 1, CIRCLES).astype(int)):
-        yield complex(centre[k]), float(radius[k])
+    chosen = np.unique(np.geomspace(_first_mode(j) + 1, centre.size, CIRCLES).astype(int)) - 1
+    for k in sorted({*chosen[radius[chosen] < STRAIGHT], int(_distances(j).argmin())}):
+        yield float(j.sweep.coarse[k]), complex(centre[k]), float(radius[k])
 
 
 def _finish(ax: Axes, title: str, ylabel: str, xlabel: str = "frequency [rad/s]") -> Axes:

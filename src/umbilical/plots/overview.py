@@ -12,6 +12,7 @@ from umbilical.plots.figure import check_drawable, new_figure
 from umbilical.plots.motors import adapted, plot_allocation, plot_motors
 from umbilical.plots.observers import estimated, plot_observers
 from umbilical.plots.tip import plot_thrust, plot_tip
+from umbilical.plots.winch import moves, plot_winch
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,6 +33,7 @@ def plot_overview(run: Run) -> Figure:
     check_drawable(run)
     motors = driven(run)
     panels: list[Panel] = [plot_tip, plot_cable, plot_positions]
+    panels += [plot_winch] if moves(run) else []
     panels += [plot_thrust] if bool(run["thrust"].any()) else []
     panels += [partial(plot_motors, channel=name) for name in ("motor_speed", "motor_voltage") if motors]
     panels += [

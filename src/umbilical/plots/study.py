@@ -31,7 +31,7 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
 
     Bars are the intervals of the median and of the 95 % quantile; the legend names the worst members.
     """
-    ax = ax or new_figure(7.0, 4.2).add_subplot()
+    ax = ax or new_figure(7.0, 4.2 + _legend(result)).add_subplot()
     spread = []
     for colour, arm in enumerate(result.arms):
         values = result.values(metric, arm)
@@ -78,21 +78,21 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
     """
     if len(result.arms) < 2:
         raise ValueError(f"{result.study.name}: there is only one arm, and nothing to compare")
-    ax = ax or new_figure(7.0, 4.2).add_subplot()
+    ax = ax or new_figure(7.0, 4.2 + _legend(result)).add_subplot()
     spread = []
     for colour, (other, arm) in enumerate(zip(result.arms[:-1], result.arms[1:], strict=True), start=1):
         found = against(result, metric, arm, other)
         ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
-        words = f"{arm}\n  over {other}: median {told(found.ratio, 3)}"
+        words = f"{arm}\n  over {other}:\n  median {told(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
         ax.step(ratio, shares, where="post", color=_colour(colour), label=words, **_dashes(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")
     ax.set(xlabel=f"ratio of {metric}, on the same draw", ylabel="share of the members below", ylim=(0.0, 1.02))
-    return _finish(ax, "each arm against the one before; left of 1 it is better")
+    return _finish(ax, "each arm over the one before it: left of 1 it is the better one")
 
 
 def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *, ax: Axes | None = None) -> Axes:
@@ -142,16 +142,25 @@ def plot_study(result: StudyResult, metric: str = USUAL) -> Figure:
     if result.study.design == "grid" and len(numbers_drawn(result)) >= 2:
         return _title(_maps(result, metric), result, metric)
     panels = (plot_distribution, plot_comparison) if len(result.arms) > 1 else (plot_distribution,)
-    figure = new_figure(6.4 * len(panels), 5.2)
+    figure = new_figure(6.4 * len(panels), 4.4 + _legend(result))
     for ax, draw in zip(np.atleast_1d(figure.subplots(1, len(panels))), panels, strict=True):
         draw(result, metric, ax=ax)
     return _title(figure, result, metric)
 
 
+def _legend(result: StudyResult) -> float:
+    """Height of the legend below a picture, inches."""
+    return 0.55 * -(-len(result.arms) // 2)
+
+
 def _maps(result: StudyResult, metric: str) -> Figure:
     """One map for each arm, and for the last one's ratio to the first; a row of them for each motor that fails."""
     rows = _motors(result)
-    columns: list[dict[str, Any]] = [{"arm": arm, "top": largest_mean(result, metric, rows)} for arm in result.arms]
+    top = largest_mean(result, metric, rows)
+    columns: list[dict[str, Any]] = [
+        {"arm": arm, "top": top, "bar": arm == result.arms[-1]}
+        for arm in result.arms  # one scale for all of them
+    ]
     columns += [{"arm": result.arms[-1], "over": result.arms[0]}] if len(result.arms) > 1 else []
     figure = new_figure(4.6 * len(columns), 3.6 * len(rows))
     panels = figure.subplots(len(rows), len(columns), squeeze=False)
@@ -191,7 +200,9 @@ def _finish(ax: Axes, title: str) -> Axes:
     ax.set_title(title, fontsize=9.5, loc="left")
     ax.grid(alpha=0.25, linewidth=0.6)
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(fontsize=7, frameon=True, framealpha=0.9, edgecolor="none", loc="best")  # lines may run behind it
+    legend = {"fontsize": 7, "frameon": False, "loc": "upper center", "borderaxespad": 0.0}
+    names = len(ax.get_legend_handles_labels()[1])
+    ax.legend(ncols=min(names, 2), bbox_to_anchor=(0.5, -0.16), **legend)  # below, where no line is
     return ax
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from umbilical.plots.figure import new_figure
+from umbilical.plots.figure import as_figure, new_figure
 from umbilical.quantities import label
 from umbilical.studies.statistics import ratios
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult
 
 USUAL = "tip_peak"
+_FACTORS = (1.01, 1.02, 1.05, 1.1, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0, *(10.0**k for k in range(1, 13)))
 _SINGLE = 40
 """Up to so many different values each has its own row of cells."""
 
@@ -48,6 +49,7 @@ def plot_map(
     over: str = "",
     where: Mapping[str, Any] | None = None,
     top: float | None = None,
+    bar: bool = True,
     ax: Axes | None = None,
 ) -> Axes:
     """Mean of a metric over two draws, as a map: cells of a grid, or bins of a continuum.
@@ -62,6 +64,7 @@ def plot_map(
         over: another arm: the ratio to it on the same draws is shown, instead of the metric.
         where: what is drawn, and the value it has in the members shown; all of them if left out.
         top: end of the scale of colours; the largest mean if left out.
+        bar: whether the scale of colours stands beside it.
         ax: where to draw.
 
     Raises:
@@ -78,11 +81,12 @@ def plot_map(
     picture = ax.pcolormesh(across.edges, up.edges, found.mean.T, **style)
     words = f"ratio of {metric}" if over else label(metric)
     words = f"mean of {words}" if found.members > 1 else words
-    bar = ax.get_figure(root=True).colorbar(picture, ax=ax, label=words)  # type: ignore[union-attr]
-    if over:
-        ticks = np.geomspace(style["norm"].vmin, style["norm"].vmax, 5)
-        bar.set_ticks(ticks, labels=[f"{tick:.3g}" for tick in ticks], minor=False)
-        bar.minorticks_off()
+    if bar:
+        scale = as_figure(ax).colorbar(picture, ax=ax, label=words)
+        if over:
+            ticks = _round_ratios(style["norm"].vmax)
+            scale.set_ticks([*ticks], labels=[*ticks.values()])
+            scale.minorticks_off()
     _mark_lost(ax, across, up, found.lost)
     _name_axes(ax, result, across, up)
     shown = [f"{name} = {value:g}" for name, value in (where or {}).items()]
@@ -161,6 +165,12 @@ def _around_one(ratio: np.ndarray) -> dict[str, Any]:
     sound = ratio[np.isfinite(ratio) & (ratio > 0.0)]
     most = float(np.exp(np.abs(np.log(sound)).max(initial=0.01)))
     return {"cmap": "RdBu_r", "norm": LogNorm(1.0 / most, most)}
+
+
+def _round_ratios(most: float) -> dict[float, str]:
+    """Round factors up to the largest ratio with their names, and what is as much smaller."""
+    factors = [f for f in _FACTORS if f <= most][-3:]
+    return {1.0: "1"} | {f: f"x {f:g}" for f in factors} | {1.0 / f: f"/ {f:g}" for f in factors}
 
 
 def _mark_lost(ax: Axes, x: Axis, y: Axis, lost: np.ndarray) -> None:

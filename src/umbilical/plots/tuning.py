@@ -36,7 +36,8 @@ def plot_tuning(found: Tuned, *, ax: Axes | None = None) -> Axes:
     ax.scatter(*points.T, s=16, color=QUIET, label=f"{len(points)} of {len(found.trials)} trials keep every condition")
     ax.plot(*best.T, "o-", color=COLOURS[1], label="no other trial beats these")
     for number, point in enumerate(best, start=1):
-        ax.annotate(str(number), point, xytext=(4, 4), textcoords="offset points", fontsize=8)
+        aside = (4, 4) if number % 2 else (-4, -11)  # above and below by turns: neighbours stand close
+        ax.annotate(str(number), point, xytext=aside, textcoords="offset points", fontsize=8)
     words = [label_of(objective) for objective in objectives]
     ax.set(**dict(zip(("xlabel", "ylabel"), words if len(words) == 2 else ("trial", *words), strict=True)))
     for axis, values in (("x", points[:, 0]), ("y", points[:, 1])):
