@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from umbilical.analysis.certificate import Certificate, certify
+    from umbilical.analysis.comparison import Comparison, compare
     from umbilical.control.contract import Command, Controller, Measurement
-    from umbilical.design.margins import margins
     from umbilical.engine.episode import Episode
     from umbilical.engine.simulate import simulate
     from umbilical.interop.c_code import to_c
@@ -50,6 +50,8 @@ if TYPE_CHECKING:
     from umbilical.studies.study import Study
     from umbilical.studies.sweep import sweep
     from umbilical.studies.tune import tune
+    from umbilical.synthesis.design import design
+    from umbilical.synthesis.margins import margins
 
 __version__ = "0.1.0"
 
@@ -57,6 +59,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "Certificate": "umbilical.analysis.certificate",
     "Command": "umbilical.control.contract",
+    "Comparison": "umbilical.analysis.comparison",
     "Controller": "umbilical.control.contract",
     "Episode": "umbilical.engine.episode",
     "Measurement": "umbilical.control.contract",
@@ -66,11 +69,13 @@ _HOMES = {
     "Study": "umbilical.studies.study",
     "StudyResult": "umbilical.studies.results",
     "certify": "umbilical.analysis.certificate",
+    "compare": "umbilical.analysis.comparison",
+    "design": "umbilical.synthesis.design",
     "load": "umbilical.library",
     "load_operation": "umbilical.screening",
     "load_study": "umbilical.studies.load",
     "lower": "umbilical.screening",
-    "margins": "umbilical.design.margins",
+    "margins": "umbilical.synthesis.margins",
     "open_run": "umbilical.run",
     "open_study": "umbilical.studies.results",
     "operate": "umbilical.screening",
@@ -102,6 +107,7 @@ _HOMES = {
 __all__ = [
     "Certificate",
     "Command",
+    "Comparison",
     "Controller",
     "Episode",
     "Measurement",
@@ -111,6 +117,8 @@ __all__ = [
     "Study",
     "StudyResult",
     "certify",
+    "compare",
+    "design",
     "load",
     "load_operation",
     "load_study",

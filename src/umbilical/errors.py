@@ -12,6 +12,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -92,3 +93,20 @@ class MissingPartnerError(UmbilicalError):
     """An optional partner package is needed and not installed."""
 
     exit_code = 6
+
+
+def expect(value: object, kind: str, maker: str) -> None:
+    """Refuse what is no ``kind``, a class by its name, and name the function of the package that gives one.
+
+    Raises:
+        TypeError: it is not.
+
+    >>> expect("paper", "Scenario", "load")
+    Traceback (most recent call last):
+    TypeError: a Scenario is needed here, not 'paper': umbilical.load('paper') gives one
+    """
+    if kind not in (base.__name__ for base in type(value).__mro__):
+        path = str(value) if isinstance(value, str | os.PathLike) else None
+        shown = repr(path) if path is not None else f"a {type(value).__name__}"
+        argument = "..." if path is None else shown
+        raise TypeError(f"a {kind} is needed here, not {shown}: umbilical.{maker}({argument}) gives one")

@@ -154,7 +154,7 @@ def test_chatter_is_a_band_from_the_lowest_to_the_highest_value(run):
     draw(axes, flat)
     draw(axes, repeated, "fast")
     (band,) = axes.collections
-    heights = band.get_paths()[0].vertices[:, 1]
+    heights = np.asarray(band.get_paths()[0].vertices)[:, 1]
     assert (len(axes.lines), heights.min(), heights.max()) == (1, -2.0, 3.0)
 
 

@@ -129,7 +129,7 @@ from umbilical.plant.checks.steps import chosen_step, grid_near_the_payload, wav
 from umbilical.analysis.certificate.lyapunov import cable_function, cable_rates
 from umbilical.analysis.certificate.records import Weights
 from umbilical.analysis.margins import judge
-from umbilical.design.grid import on_grid
+from umbilical.synthesis.grid import on_grid
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.initial import initial_slopes
 from umbilical.relations.tension import hanging_of, net_gravity

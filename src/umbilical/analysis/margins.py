@@ -17,7 +17,7 @@ from umbilical.analysis.impedance import HangingCable, hanging_cable
 from umbilical.analysis.limits import Margins, margins
 from umbilical.analysis.nyquist import Stability, Sweep, near_poles, stability, sweep
 from umbilical.analysis.sampled import SampledLoop, loop_response, sampled_loop
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.plant import signals
 from umbilical.plant.top import top_at
 from umbilical.scenario.scenario import Scenario
@@ -150,6 +150,7 @@ def check(scenario: Scenario) -> None:
     Raises:
         ScenarioError: no controller, or rates of the slope that an ideal thruster makes jump at every sample.
     """
+    expect(scenario, "Scenario", "load")
     law = scenario.control.law
     if not law.closes_loop:
         wanted, reason = "a law that closes a loop", "margins say what a loop survives"

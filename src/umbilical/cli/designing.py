@@ -15,7 +15,7 @@ from umbilical.cli.running import load_changed
 from umbilical.cli.targets import PICTURES, check_target, draw
 
 if TYPE_CHECKING:
-    from umbilical.design.rounds import Limits
+    from umbilical.synthesis.rounds import Limits
 
 Objective = Literal["ringdown", "rejection", "both"]
 
@@ -54,8 +54,8 @@ def design(
     chosen = load_changed(scenario, changes or [])
     check_target(out, ("toml",), force=force)
     check_target(plot, PICTURES, force=force)
-    from umbilical.design.design import design as compute
-    from umbilical.design.score import Demands
+    from umbilical.synthesis.design import design as compute
+    from umbilical.synthesis.score import Demands
 
     if not 0.0 <= gain <= 100.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
         raise BadParameter("margins are 0 to 100 dB, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
@@ -82,7 +82,7 @@ def _limits(words: str | None) -> Limits:
     Raises:
         BadParameter: another name, or not a positive number.
     """
-    from umbilical.design.rounds import Limits
+    from umbilical.synthesis.rounds import Limits
 
     given = {}
     for word in words.split(",") if words else []:

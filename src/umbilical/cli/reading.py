@@ -9,10 +9,10 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json
 from umbilical.cli.speech import say, say_json
-from umbilical.faces.text import shown_unit, table
+from umbilical.faces.text import table
 
 if TYPE_CHECKING:
-    from umbilical.run import Run
+    pass
 
 _ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "version_numba", "version_python")
 
@@ -128,32 +128,17 @@ def compare(
     example
       umbilical compare none.nc pd.nc paper.nc
     """
+    from umbilical.analysis.comparison import compare as compute
+    from umbilical.faces.comparison import document, text
     from umbilical.run import open_run
 
-    runs = [open_run(file) for file in files]
+    if len(files) < 2:
+        raise BadParameter("two or more results are compared", param_hint="FILES")
+    found = compute(*(open_run(file) for file in files), names=[file.stem for file in files])
     if as_json:
-        say_json({"runs": [run.to_dict() | {"files": {"result": str(f)}} for run, f in zip(runs, files, strict=True)]})
+        whole = document(found)
+        for run, file in zip(whole["runs"], files, strict=True):
+            run["files"] = {"result": str(file)}
+        say_json(whole)
     else:
-        say(_comparison(runs, files))
-
-
-def _comparison(runs: list[Run], files: list[Path]) -> str:
-    from umbilical.quantities import METRICS
-
-    names = [name for name in METRICS if any(name in run.metrics for run in runs)]
-    head = ["", ""] + [cell for file in files for cell in (file.stem, "ratio")]
-    rows = [head, ["status", ""] + [cell for run in runs for cell in (run.status.name, "")]]
-    for name in names:
-        first = runs[0].metrics.get(name)
-        cells = [cell for run in runs for cell in _value_and_ratio(run.metrics.get(name), first)]
-        rows.append([name, shown_unit(METRICS[name].unit), *cells])
-    columns = [k for k in range(len(head)) if k != 3]  # the first result's ratio to itself
-    aligned = table([[row[k] for k in columns] for row in rows], right=range(2, len(columns)))
-    notes = [f"  note: {file}: {notice}" for run, file in zip(runs, files, strict=True) for notice in run.notices]
-    return "\n".join([aligned, *notes])
-
-
-def _value_and_ratio(value: float | None, first: float | None) -> tuple[str, str]:
-    if value is None:
-        return "-", "-"
-    return f"{value:.6g}", f"{value / first:.4g}" if first else "-"
+        say(text(found))

@@ -59,6 +59,7 @@ def simulate(
     ('COMPLETED', True)
     """
     if controller is not None:
+        check_controller(controller)
         episode = Episode(scenario, controller.period, owner=type(controller).__name__)
         error = follow(episode, controller, progress)
         run = episode.finish()
@@ -74,6 +75,20 @@ def simulate(
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
     return model.assemble(ending, (*notices, *model.notices()), timing)
+
+
+def check_controller(controller: object) -> None:
+    """Refuse what is no controller before it is asked anything.
+
+    Raises:
+        ControllerError: a class instead of an object of it, or something without ``period``, ``start`` and ``update``.
+    """
+    name = controller.__name__ if isinstance(controller, type) else type(controller).__name__
+    missing = [part for part in ("period", "start", "update") if not hasattr(controller, part)]
+    if missing:
+        raise ControllerError(f"{name} is no controller: it has no {' and no '.join(missing)}")
+    if isinstance(controller, type):
+        raise ControllerError(f"{name} is a class; the controller is an object of it, such as {name}()")
 
 
 def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome:

@@ -10,8 +10,8 @@ from umbilical.faces.margins import rows as margin_rows
 from umbilical.faces.text import table
 
 if TYPE_CHECKING:
-    from umbilical.design.design import Design
-    from umbilical.design.rounds import Side
+    from umbilical.synthesis.design import Design
+    from umbilical.synthesis.rounds import Side
 
 NOT_ASKED = "the engine's grids; `umbilical margins` of these gains asks them, and may leave the margins unresolved"
 

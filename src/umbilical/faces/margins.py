@@ -11,9 +11,9 @@ from umbilical.faces.text import table
 if TYPE_CHECKING:
     from umbilical.analysis.limits import Limit
     from umbilical.analysis.margins import Judgement
-    from umbilical.design.grid import GridJudgement
-    from umbilical.design.margins import MarginReport
-    from umbilical.design.matrix import Counted, MatrixCheck
+    from umbilical.synthesis.grid import GridJudgement
+    from umbilical.synthesis.margins import MarginReport
+    from umbilical.synthesis.matrix import Counted, MatrixCheck
 
 
 SHOWN_MODES = 3

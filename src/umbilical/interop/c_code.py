@@ -16,7 +16,7 @@ from umbilical import files
 from umbilical.control.allocation.adaptive import initial_kappa
 from umbilical.control.cascade import CascadeSettings, MotorMemory, OuterMemory, make_settings, to_readings
 from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecision, TipReadings, WinchReadings
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.frames import Frame
 from umbilical.interop.c_known import check_known
 from umbilical.interop.c_types import frame_fields, frame_structs, initialiser, literal, value_structs
@@ -62,6 +62,7 @@ def to_c(
     ...     [path.name for path in to_c(umbilical.load("crosscheck-pd"), folder)][:2]
     ['umbilical_controller.h', 'umbilical_controller.c']
     """
+    expect(scenario, "Scenario", "load")
     texts = c_files(scenario, prefix=prefix, hold=hold)
     target = Path(folder)
     files.make_folder(target)

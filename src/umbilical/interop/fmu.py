@@ -19,7 +19,7 @@ from xml.sax.saxutils import quoteattr
 import umbilical
 from umbilical import files
 from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecision, TipReadings
-from umbilical.errors import MissingPartnerError, OutputError
+from umbilical.errors import MissingPartnerError, OutputError, expect
 from umbilical.frames import Frame
 from umbilical.interop.c_code import c_files, fill, head, template
 from umbilical.interop.units import base_units
@@ -72,6 +72,7 @@ def to_fmu(scenario: Scenario, path: str | os.PathLike[str], *, hold: float | No
     ...     to_fmu(umbilical.load("crosscheck-pd"), folder + "/pd.fmu").path.name
     'pd.fmu'
     """
+    expect(scenario, "Scenario", "load")
     partner = _partner()
     target = Path(path)
     if target.suffix.lower() != ".fmu":

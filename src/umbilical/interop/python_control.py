@@ -9,10 +9,10 @@ import numpy as np
 from umbilical.analysis.laws import READINGS
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.margins import check_request
-from umbilical.design.period import linear_period
-from umbilical.errors import MissingPartnerError
+from umbilical.errors import MissingPartnerError, expect
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.margins import check_request
+from umbilical.synthesis.period import linear_period
 
 
 def to_control(
@@ -23,7 +23,7 @@ def to_control(
     Args:
         scenario: its grid, motors, sensors and controller are used.
         length: cable length, m, the winch standing still; if left out, the longest of the run.
-        operating_thrust: as for :func:`umbilical.design.margins.margins`.
+        operating_thrust: as for :func:`umbilical.synthesis.margins.margins`.
 
     Returns:
         Discrete-time ``control.StateSpace`` objects at the period of the outer law:
@@ -42,6 +42,7 @@ def to_control(
     >>> systems["loop"].input_labels, systems["plant"].output_labels[:2]
     (['thrust_injected'], ['tip_displacement', 'tip_slope'])
     """
+    expect(scenario, "Scenario", "load")
     control = _partner()
     check(scenario)
     chosen = max(usual_lengths(scenario)) if length is None else length

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import TypeAdapter
 
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.library.checks import checks_for
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import freeze, validate
@@ -29,6 +29,7 @@ def admit(scenario: Scenario) -> tuple[Notice, ...]:
     >>> admit(load("paper"))
     ()
     """
+    expect(scenario, "Scenario", "load")
     findings = _findings(_sections(scenario))
     if problems := _only_problems(findings):
         raise ScenarioError(problems, scenario.name)

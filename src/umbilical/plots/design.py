@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umbilical.analysis.sampled import loop_response
-from umbilical.design.score import changes as demanded
 from umbilical.plots.figure import COLOURS, QUIET, at_sigma, new_figure
+from umbilical.synthesis.score import changes as demanded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from umbilical.design.design import Design
+    from umbilical.synthesis.design import Design
 
 
 LEAST_TAKEN = 1e-4

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from umbilical import files
-from umbilical.errors import OutputError
+from umbilical.errors import OutputError, expect
 
 if TYPE_CHECKING:
     import xarray
@@ -60,6 +60,7 @@ def check_drawable(run: Run) -> None:
     Raises:
         ValueError: the run ended before there was anything to draw.
     """
+    expect(run, "Run", "open_run")
     if run["time"].size < 2:
         raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
 

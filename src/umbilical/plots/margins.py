@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umbilical.analysis.margins import Judgement
-    from umbilical.design.margins import MarginReport
+    from umbilical.synthesis.margins import MarginReport
 
 LOWEST = 1e-2
 """rad/s; nothing happens below."""
@@ -68,8 +68,8 @@ def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
     closest = min(report.judgements, key=lambda j: float(_distances(j).min()))
     colours = ScalarMappable(LogNorm(*closest.sweep.coarse[[_first_mode(closest), -1]]), "viridis")
     for w, centre, radius in _circles(closest):
-        place = (float(centre.real), float(centre.imag))
-        ax.add_patch(Circle(place, radius, fill=False, edgecolor=colours.to_rgba(w), linewidth=0.7, alpha=0.8))
+        place, paint = (float(centre.real), float(centre.imag)), colours.to_rgba(np.array([w]))[0]
+        ax.add_patch(Circle(place, radius, fill=False, edgecolor=paint, linewidth=0.7, alpha=0.8))
     bar = as_figure(ax).colorbar(colours, ax=ax, label="frequency [rad/s]", pad=0.02)
     bar.ax.tick_params(labelsize=8)
     circle = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 200))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from umbilical.errors import expect
 from umbilical.plots.figure import QUIET, axes_for, axis_label, draw, finish, note
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = Non
     Raises:
         ValueError: the run has no motors, or no such channel of them.
     """
+    expect(run, "Run", "open_run")
     if channel not in run.data or "motor" not in run[channel].dims or not run.data.sizes["motor"]:
         raise ValueError(f"{run.scenario.name}: this run has no {channel} of motors")
     ax = axes_for(run, ax)

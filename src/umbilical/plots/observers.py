@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umbilical.errors import expect
 from umbilical.plots.figure import axes_for, axis_label, draw, finish
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
     Raises:
         ValueError: nothing of that name was estimated in this run, or there is no such motor.
     """
+    expect(run, "Run", "open_run")
     known = estimated(run)
     if channel not in known:
         raise ValueError(

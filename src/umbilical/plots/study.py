@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.analysis.paired import Estimate
+from umbilical.errors import expect
 from umbilical.plots.figure import COLOURS, QUIET, new_figure
 from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
@@ -139,6 +140,7 @@ def _influences(result: StudyResult, metric: str, arms: tuple[str, ...]) -> dict
 
 def plot_study(result: StudyResult, metric: str = USUAL) -> Figure:
     """A first look at a study: maps where two numbers were combined, else distributions and paired ratios."""
+    expect(result, "StudyResult", "open_study")
     if result.study.design == "grid" and len(numbers_drawn(result)) >= 2:
         return _title(_maps(result, metric), result, metric)
     panels = (plot_distribution, plot_comparison) if len(result.arms) > 1 else (plot_distribution,)

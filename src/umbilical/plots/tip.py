@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from umbilical.plots.figure import axes_for, axis_label, draw, finish
 from umbilical.run import Run
@@ -12,14 +12,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def plot_tip(run: Run | Sequence[Run], *, ax: Axes | None = None) -> Axes:
-    """Displacement of the ROV over time, m; of several runs one line each, named by scenario."""
-    runs = [run] if isinstance(run, Run) else list(run)
+def plot_tip(run: Run | Sequence[Run], *, names: Sequence[str] = (), ax: Axes | None = None) -> Axes:
+    """Displacement of the ROV over time, m; of several runs one line each, named by ``names`` or by scenario."""
+    runs: list[Any] = [*run] if isinstance(run, list | tuple) else [run]
     if not runs:
         raise ValueError("there is no run to draw")
     ax = axes_for(runs[0], ax)
-    for number, one in enumerate(runs):
-        draw(ax, one["tip_displacement"], one.scenario.name if len(runs) > 1 else "", colour=number)
+    labels = list(names) or ([one.scenario.name for one in runs] if len(runs) > 1 else [""])
+    for number, (one, label) in enumerate(zip(runs, labels, strict=True)):
+        draw(ax, one["tip_displacement"], label, colour=number)
     y = runs[0]["tip_displacement"]
     return finish(ax, runs[0], y.attrs["long_name"], axis_label(y))
 

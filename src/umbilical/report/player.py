@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.errors import expect
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 
 if TYPE_CHECKING:
@@ -102,6 +103,7 @@ def show(run: Run, compare: Run | None = None) -> Show:
     >>> umbilical.show(umbilical.simulate(umbilical.load("crosscheck-none", {"duration": 1.0})))  # doctest: +ELLIPSIS
     <plays crosscheck-none: ... kB; shows itself in a notebook>
     """
+    expect(run, "Run", "open_run")
     names = [r.scenario.name for r in (run, compare) if r is not None]
     return Show(player(run, compare), f"plays {' and '.join(names)}")
 

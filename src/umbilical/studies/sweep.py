@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from umbilical.engine.simulate import simulate
-from umbilical.errors import OutputError
+from umbilical.errors import OutputError, expect
 from umbilical.formats import to_netcdf
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs, processes, threads
@@ -66,6 +66,7 @@ def sweep(
     >>> sweep(small).data.sizes["member"]
     96
     """
+    expect(study, "Study", "load_study")
     check_memory(study)
     check_controllers(study, trust=trust)
     draws = Draws(study)

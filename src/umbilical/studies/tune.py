@@ -14,7 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from umbilical.analysis.paired import quantile
-from umbilical.errors import FileError, Problem, ScenarioError
+from umbilical.errors import FileError, Problem, ScenarioError, expect
 from umbilical.library import admit, load, preset_names
 from umbilical.result import ResultFaces
 from umbilical.scenario.document import extend, look_up, override, validate
@@ -127,6 +127,7 @@ def tune(
         MissingPartnerError: Optuna is not installed.
         OutputError, FileError: as :func:`~umbilical.studies.sweep.sweep`.
     """
+    expect(study, "Study", "load_study")
     tuning = tuning_of(study)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}

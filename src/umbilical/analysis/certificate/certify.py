@@ -12,6 +12,7 @@ from umbilical.analysis.certificate.ranges import ranges_of, stretch_of
 from umbilical.analysis.certificate.records import Certificate
 from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
 from umbilical.analysis.ideal_loop import energy_rate
+from umbilical.errors import expect
 from umbilical.scenario.control import Nominal
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
@@ -38,6 +39,7 @@ def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
     >>> certificate.holds, round(certificate.rate, 4)
     (True, 0.0125)
     """
+    expect(scenario, "Scenario", "load")
     loop = loop_of(scenario)
     edges = slab_edges(scenario.winch, scenario.duration)
     motion = sampled(scenario.winch, scenario.environment.gravity, edges)

@@ -2,7 +2,7 @@
 
 The readings of the ROV on a grid, one sparse solve for each frequency, tell the echo that this grid returns.
 It replaces the exact echo in Nyquist's count, which on a coarse grid is held against the eigenvalues of the closed
-matrix (:mod:`umbilical.design.matrix`). The grid is resolved where stability is the same and every margin is within
+matrix (:mod:`umbilical.synthesis.matrix`). The grid is resolved where stability is the same and every margin is within
 :data:`CLOSE` of the exact one (:data:`NEAR` on the next coarser grid), or of loops that are unstable both ways the
 number of poles and the fastest growth; where it is not, the verdict is that nothing is resolved.
 """
@@ -20,10 +20,10 @@ from umbilical.analysis.limits import Margins, margins
 from umbilical.analysis.margins import Judgement
 from umbilical.analysis.nyquist import Stability, Sweep, stability
 from umbilical.analysis.sampled import alias_sum
-from umbilical.design.matrix import MOST_ELEMENTS, MatrixCheck, check_matrix
-from umbilical.design.period import LinearPeriod, linear_period
 from umbilical.plant.multistep import courant_limit
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.matrix import MOST_ELEMENTS, MatrixCheck, check_matrix
+from umbilical.synthesis.period import LinearPeriod, linear_period
 
 CLOSE, NEAR = 0.02, 0.08
 """Largest relative difference of a margin on the finest grid and on the next coarser one. Elements twice as long make

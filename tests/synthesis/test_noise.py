@@ -10,15 +10,15 @@ import pytest
 import umbilical
 from umbilical.analysis.laws import root_slope
 from umbilical.analysis.sampled import loop_response, sampled_loop
-from umbilical.design import rounds
-from umbilical.design.design import _missing
-from umbilical.design.margins import margins
-from umbilical.design.noise import NO_NOISE, VoltageNoise, commanded_spectrum, reading_noise, voltage_noise
-from umbilical.design.rounds import Limits, Outcome, Side
-from umbilical.design.score import Demands, Judge, Score
-from umbilical.design.search import Knob, Task, explore, follow
-from umbilical.design.trial import attempt
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis import rounds
+from umbilical.synthesis.design import _missing
+from umbilical.synthesis.margins import margins
+from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, commanded_spectrum, reading_noise, voltage_noise
+from umbilical.synthesis.rounds import Limits, Outcome, Side
+from umbilical.synthesis.score import Demands, Judge, Score
+from umbilical.synthesis.search import Knob, Task, explore, follow
+from umbilical.synthesis.trial import attempt
 
 AT_REST = {"initial.shape": "straight", "grid.elements": 8, "duration": 6.0}
 PUSHED = AT_REST | {"environment.payload_force": [{"kind": "constant", "value": 50.0}]}
@@ -204,7 +204,7 @@ def test_the_least_noise_is_searched_for_where_the_limit_is_not_reached(monkeypa
 @pytest.mark.slow
 def test_design_for_noisy_sensors_keeps_the_voltages_calm_with_all_margins():
     """The same thrusters, with the gains of a design that knows no noise: 471 V."""
-    from umbilical.design.design import design
+    from umbilical.synthesis.design import design
 
     found = design(umbilical.load("ringdown", NOISE), inner=True)
     assert found.met, found.missing

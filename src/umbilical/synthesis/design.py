@@ -11,15 +11,15 @@ import numpy as np
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import check, usual_lengths, usual_thrust
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.margins import check_request
-from umbilical.design.paces import pace, paced
-from umbilical.design.rounds import Limits, Outcome, Side, badness, design_within, side
-from umbilical.design.score import Demands, Score
-from umbilical.design.search import Objective, Task, Values, inner_knobs
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.margins import check_request
+from umbilical.synthesis.paces import pace, paced
+from umbilical.synthesis.rounds import Limits, Outcome, Side, badness, design_within, side
+from umbilical.synthesis.score import Demands, Score
+from umbilical.synthesis.search import Objective, Task, Values, inner_knobs
 
 UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
 """Of the limits."""
@@ -97,7 +97,7 @@ def design(
         limits: on voltage, speed and chatter in a simulation of the scenario; where gains exceed them, the search
             is repeated with less effort of the motors. And on the noise that sensors put on a voltage, which every
             search keeps.
-        operating_thrust: as for :func:`umbilical.design.margins.margins`.
+        operating_thrust: as for :func:`umbilical.synthesis.margins.margins`.
         progress: called with the share done, 0 to 1.
 
     Raises:
@@ -105,10 +105,9 @@ def design(
 
     The search takes minutes::
 
-        from umbilical.design.design import design
-        from umbilical.design.rounds import Limits
+        from umbilical.synthesis.rounds import Limits
 
-        found = design(umbilical.load("ringdown"), inner=True, limits=Limits(voltage=60.0))
+        found = umbilical.design(umbilical.load("ringdown"), inner=True, limits=Limits(voltage=60.0))
         print(found.met, found.missing, found.patch())
     """
     check_design(scenario)

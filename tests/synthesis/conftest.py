@@ -8,4 +8,4 @@ import pytest
 @pytest.fixture(autouse=True)
 def few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     """Random steps after the evolution."""
-    monkeypatch.setattr("umbilical.design.search.LOCAL_STEPS", 150)
+    monkeypatch.setattr("umbilical.synthesis.search.LOCAL_STEPS", 150)

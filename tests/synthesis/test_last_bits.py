@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.design import search
-from umbilical.design.score import Demands, Judge
-from umbilical.design.search import Task, Values, follow, inner_knobs, outer_knobs
+from umbilical.synthesis import search
+from umbilical.synthesis.score import Demands, Judge
+from umbilical.synthesis.search import Task, Values, follow, inner_knobs, outer_knobs
 
 RINGDOWN = umbilical.load("ringdown")
 NEAR = {
@@ -28,8 +28,8 @@ GAINS, RESULTS = 0.01, 0.02
 """Relative tolerances that docs/design.md states, of gains and of what a simulation gives with them."""
 SHORT_DESIGN = """
 import json, umbilical
-from umbilical.design import rounds
-from umbilical.design.design import design
+from umbilical.synthesis import rounds
+from umbilical.synthesis.design import design
 rounds.GENERATIONS = 4
 short = {"grid.elements": 8, "duration": 4.0}
 found = design(umbilical.load("ringdown", short), "both", inner=True)
@@ -42,7 +42,7 @@ print(json.dumps([found.values, [found.after.score.reflection, trial.late_mid_pe
 def with_other_bits(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], Values]:
     """Gains of a short local search whose scores all have errors of their own, as large as double poles make them."""
     monkeypatch.setattr(search, "LOCAL_STEPS", 60)
-    monkeypatch.setattr("umbilical.design.score.POINTS", 120)
+    monkeypatch.setattr("umbilical.synthesis.score.POINTS", 120)
     exact = Judge.score
 
     def found(seed: int, error: float = 1e-9) -> Values:

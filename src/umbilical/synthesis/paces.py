@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from umbilical.design.search import Task, Values, inner_knobs, outer_knobs
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.search import Task, Values, inner_knobs, outer_knobs
 
 
 def pace(scenario: Scenario, period: float) -> Values:

@@ -14,13 +14,21 @@ from umbilical.analysis.margins import judge
 from umbilical.analysis.nyquist import Stability, stability, sweep
 from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.control.cascade import Cascade
-from umbilical.design.grid import Difference, GridJudgement, check_count, judge_grid, on_grid, resolved, with_grid_echo
-from umbilical.design.margins import margins as report
-from umbilical.design.matrix import Counted, MatrixCheck, unstable_eigenvalues
-from umbilical.design.period import linear_period
 from umbilical.errors import ScenarioError
 from umbilical.faces.margins import conclusion
 from umbilical.interop.python_control import to_control
+from umbilical.synthesis.grid import (
+    Difference,
+    GridJudgement,
+    check_count,
+    judge_grid,
+    on_grid,
+    resolved,
+    with_grid_echo,
+)
+from umbilical.synthesis.margins import margins as report
+from umbilical.synthesis.matrix import Counted, MatrixCheck, unstable_eigenvalues
+from umbilical.synthesis.period import linear_period
 
 LOW = np.array([0.05, 0.2, 0.4, 0.7, 1.3])
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 import umbilical
-from umbilical.design.design import design
-from umbilical.design.paces import pace, paced
-from umbilical.design.rounds import design_within
-from umbilical.design.score import Demands
-from umbilical.design.search import Task
 from umbilical.errors import ScenarioError
+from umbilical.synthesis.design import design
+from umbilical.synthesis.paces import pace, paced
+from umbilical.synthesis.rounds import design_within
+from umbilical.synthesis.score import Demands
+from umbilical.synthesis.search import Task
 
 RINGDOWN = umbilical.load("ringdown")
 BASE = Task(RINGDOWN, (), "ringdown", Demands(), 400.0, 50.0, present=RINGDOWN)
@@ -44,16 +44,16 @@ def test_bounds_follow_the_period() -> None:
 @pytest.mark.slow
 def test_the_better_of_two_periods_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     """By a short search, the same one for both."""
-    monkeypatch.setattr("umbilical.design.rounds.GENERATIONS", 2)
-    monkeypatch.setattr("umbilical.design.rounds.RESERVES", (1.0,))
-    monkeypatch.setattr("umbilical.design.search.LOCAL_STEPS", 5)
+    monkeypatch.setattr("umbilical.synthesis.rounds.GENERATIONS", 2)
+    monkeypatch.setattr("umbilical.synthesis.rounds.RESERVES", (1.0,))
+    monkeypatch.setattr("umbilical.synthesis.search.LOCAL_STEPS", 5)
     outcomes = []
 
     def searched(*arguments):
         outcomes.append(design_within(*arguments))
         return outcomes[-1]
 
-    monkeypatch.setattr("umbilical.design.design.design_within", searched)
+    monkeypatch.setattr("umbilical.synthesis.design.design_within", searched)
     found = design(RINGDOWN, "ringdown", periods=[1e-3, 5e-4])
     best = min(outcomes, key=lambda outcome: (not outcome.side.kept, outcome.side.score.reflection))
     assert [outcome.side.scenario.control.period for outcome in outcomes] == [1e-3, 5e-4]

@@ -20,9 +20,9 @@ import numpy as np
 
 from umbilical.analysis.impedance import Waves
 from umbilical.analysis.sampled import SampledLoop, drives_at, loop_response
-from umbilical.design.score import ARC, Judge
-from umbilical.design.trial import CHATTER
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.score import ARC, Judge
+from umbilical.synthesis.trial import CHATTER
 
 LARGEST_RETURN = 1.0 - 1e-6
 """Where a wave returns larger there is no stationary noise; such gains lack their margins."""

@@ -13,12 +13,12 @@ import numpy as np
 
 from umbilical.analysis.margins import usual_lengths
 from umbilical.analysis.sampled import sampled_loop
-from umbilical.design.margins import MarginReport, margins
-from umbilical.design.noise import NO_NOISE, VoltageNoise, voltage_noise
-from umbilical.design.score import Demands, Effort, Judge, Score
-from umbilical.design.search import Task, Values, explore, follow, rounded
-from umbilical.design.trial import Trial, attempt
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.margins import MarginReport, margins
+from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, voltage_noise
+from umbilical.synthesis.score import Demands, Effort, Judge, Score
+from umbilical.synthesis.search import Task, Values, explore, follow, rounded
+from umbilical.synthesis.trial import Trial, attempt
 
 GENERATIONS = 90
 ROUNDS = 4

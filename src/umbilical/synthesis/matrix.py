@@ -15,7 +15,7 @@ import numpy as np
 from umbilical.analysis.limits import Margins, later, scaled
 from umbilical.analysis.nyquist import Factor, Sweep, stability, unchanged
 from umbilical.analysis.sampled import ON_THE_CIRCLE
-from umbilical.design.period import LinearPeriod
+from umbilical.synthesis.period import LinearPeriod
 
 BESIDE = 0.01
 """How far inside and outside of a limit of gain or delay both are asked, relative to it."""

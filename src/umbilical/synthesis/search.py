@@ -14,10 +14,10 @@ from typing import Any, Literal
 import numpy as np
 
 from umbilical.analysis.sampled import SampledLoop, sampled_loop
-from umbilical.design.noise import voltage_noise
-from umbilical.design.score import SPARE, Demands, Effort, Judge, Score
 from umbilical.relations.water import payload_inertia
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.noise import voltage_noise
+from umbilical.synthesis.score import SPARE, Demands, Effort, Judge, Score
 
 Objective = Literal["ringdown", "rejection", "both"]
 Values = dict[str, float]

@@ -12,14 +12,14 @@ import pytest
 import umbilical
 from umbilical.analysis.margins import judge
 from umbilical.analysis.sampled import loop_response, sampled_loop
-from umbilical.design.design import _limited_by, _missing, check_design, design
-from umbilical.design.margins import margins
-from umbilical.design.rounds import Limits, Outcome, Side, design_within, side
-from umbilical.design.score import Demands, Effort, Judge
-from umbilical.design.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
-from umbilical.design.trial import attempt, rms_above
 from umbilical.errors import ScenarioError
 from umbilical.plots import plot_margins
+from umbilical.synthesis.design import _limited_by, _missing, check_design, design
+from umbilical.synthesis.margins import margins
+from umbilical.synthesis.rounds import Limits, Outcome, Side, design_within, side
+from umbilical.synthesis.score import Demands, Effort, Judge
+from umbilical.synthesis.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
+from umbilical.synthesis.trial import attempt, rms_above
 
 RINGDOWN = umbilical.load("ringdown")
 JUDGE = Judge(RINGDOWN, 400.0, Demands())
@@ -287,7 +287,7 @@ def test_a_limit_is_named_only_where_the_search_without_it_was_better():
 
 
 def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
-    from umbilical.design import rounds
+    from umbilical.synthesis import rounds
 
     tried = []
     trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))

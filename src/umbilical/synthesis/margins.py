@@ -11,13 +11,13 @@ from umbilical.analysis.margins import Judgement, check, judge_loop, usual_lengt
 from umbilical.analysis.sampled import sampled_loop
 from umbilical.analysis.updates import Doubt
 from umbilical.control.contract import Controller
-from umbilical.design.grid import GridJudgement, check_count, judge_grid, resolved
-from umbilical.design.matrix import MatrixCheck
 from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Channel
+from umbilical.synthesis.grid import GridJudgement, check_count, judge_grid, resolved
+from umbilical.synthesis.matrix import MatrixCheck
 
 T = TypeVar("T")
 

@@ -20,8 +20,8 @@ from umbilical.analysis.impedance import HangingCable, hanging_cable, waves
 from umbilical.analysis.limits import Margins, later, scaled, turned
 from umbilical.analysis.nyquist import Factor, unchanged
 from umbilical.analysis.sampled import ALIASES, LoopResponse, SampledLoop, delivered, demands_to_volts, loop_response
-from umbilical.design.trial import CHATTER
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.trial import CHATTER
 
 POINTS, FEW_POINTS = 1000, 140
 """Frequencies from far below the first mode to half the sampling frequency: to decide, and to rank gains."""
