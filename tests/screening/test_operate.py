@@ -10,11 +10,10 @@ from scipy import integrate
 
 from umbilical import load_operation, lower, operate
 from umbilical.errors import FileError, ScenarioError
+from umbilical.relations.axial import Bar, equivalent_damping, mean_drag
 from umbilical.screening import axial_period, respond
-from umbilical.screening.axial import Bar
 from umbilical.screening.criteria import parse_criterion
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import equivalent_damping, mean_drag
 from umbilical.sea import Spectrum
 
 SLACK = parse_criterion("slack=1e-2/3h")

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from umbilical.screening import axial, operate, response
+from umbilical.relations import axial
+from umbilical.screening import operate, response
 from umbilical.sea import components, rao, spectrum, vessel
 from umbilical.verify import sea
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, interpolation_row
-from umbilical.relations.tension import across, axial_drag_of, hanging_of, sinking, tension
+from umbilical.relations.tension import across, axial_drag_of, hanging_of, sinking, stretched, tension
 from umbilical.relations.water import in_water, payload_inertia
 from umbilical.scenario.scenario import Scenario
 
@@ -26,6 +26,8 @@ def energy(
     length: np.ndarray,
     net_gravity: np.ndarray,
     sink_speed: np.ndarray,
+    elastic_tension: np.ndarray,
+    elastic_gradient: np.ndarray,
 ) -> np.ndarray:
     """Energy of cable and ROV at every sample, J, shape (samples,).
 
@@ -40,13 +42,16 @@ def energy(
         length: cable paid out, m.
         net_gravity: g less the acceleration at which the cable sinks, m/s2.
         sink_speed: speed at which it does, m/s.
+        elastic_tension, elastic_gradient: what stretch adds to the tension at the ROV, N, and per metre, N/m.
     """
     elements = slopes.shape[2]
     sections = scenario.cable, scenario.payload, scenario.environment
     net, sinks, water = net_gravity[:, None, None], sink_speed[:, None, None], in_water(*sections)
     inertia = scenario.cable.line_density + water.added
     coupling = scenario.cable.line_density * water.added / inertia
-    hung = across(sinking(hanging_of(*sections), axial_drag_of(*sections), sinks), coupling, sinks)
+    carried = sinking(hanging_of(*sections), axial_drag_of(*sections), sinks)
+    hung = stretched(carried, elastic_tension[:, None, None], elastic_gradient[:, None, None])
+    hung = across(hung, coupling, sinks)
     over = length[:, None, None]
     sigma = (np.arange(elements) + (_POINTS[:, None] + 1.0) / 2.0) / elements
     pull = tension((1.0 - sigma) * over, net, hung)
@@ -54,6 +59,22 @@ def energy(
     density += pull * (_TO_POINTS @ slopes / over) ** 2
     along = np.einsum("spe,p->s", density, _WEIGHTS) * length / (2.0 * elements)
     return 0.5 * (along + payload_inertia(scenario.payload) * tip_velocity**2)
+
+
+def tension_at_ends(
+    scenario: Scenario,
+    *,
+    length: np.ndarray,
+    net_gravity: np.ndarray,
+    sink_speed: np.ndarray,
+    elastic_tension: np.ndarray,
+    elastic_gradient: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Tension at the sheave and at the ROV at every sample, N; arguments as in :func:`energy`."""
+    sections = scenario.cable, scenario.payload, scenario.environment
+    carried = sinking(hanging_of(*sections), axial_drag_of(*sections), sink_speed)
+    hung = stretched(carried, elastic_tension, elastic_gradient)
+    return tension(length, net_gravity, hung), tension(0.0 * length, net_gravity, hung)
 
 
 def residual(energies: np.ndarray, works: np.ndarray) -> np.ndarray:

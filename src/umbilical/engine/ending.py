@@ -8,12 +8,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.energy import energy, relative_residual, residual, scale_of
+from umbilical.analysis.energy import energy, relative_residual, residual, scale_of, tension_at_ends
 from umbilical.engine.recording import Log, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
 from umbilical.engine.setup import Setup
+from umbilical.plant.exogenous import STRETCHING
 from umbilical.plant.forces.table import WORKS
 from umbilical.plant.layout import positions
+from umbilical.plant.seaway import heaving
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.findings import Notice
 from umbilical.scenario.scenario import Scenario
@@ -112,8 +114,10 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
     """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
     motion = {name: named[name] for name in ("tip_velocity", "length")}
     works = np.stack([named[name] for name in WORKS if name in named], axis=1)
-    sinks = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed")}
-    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion, **sinks)
+    outside = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed", *STRETCHING[:2])}
+    if heaving(scenario.environment):
+        named["top_tension"], named["end_tension"] = tension_at_ends(scenario, length=named["length"], **outside)
+    named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion, **outside)
     named["energy_residual"] = residual(named["energy"], works)
     lost = float(np.abs(named["work_grid"][-1]))
     return {

@@ -12,7 +12,7 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, timeline, water, weights
+from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, stretch, timeline, water, weights
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -48,7 +48,9 @@ CHECKS: tuple[Check, ...] = (
     seas.systems,
     seas.vessel,
     seas.repetition,
-    seas.heave_has_its_model,
+    stretch.heave_has_its_model,
+    stretch.one_stiffness,
+    stretch.heave_of_a_cable_that_stretches,
     seas.orbital_motion,
     seas.regular_waves,
     motion.vessel_at_the_start,

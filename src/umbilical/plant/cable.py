@@ -37,6 +37,7 @@ from umbilical.relations.tension import (
     axial_drag_of,
     hanging_of,
     sinking,
+    stretched,
     tension,
     tension_gain,
 )
@@ -99,7 +100,7 @@ class Moment(NamedTuple):
         net: g less the acceleration at which the cable sinks, m/s2.
         vessel: e', m/s.
         slip: v - vb = rho_a (v - zeta')/M, m/s: how fast the mass that moves across lags behind the cable that slides.
-        hung: what hangs, carried by its drag: T.
+        hung: what hangs, carried by its drag, pulled by what the cable's stretch adds: T.
         across: the same less what sliding takes of it: Tt.
     """
 
@@ -134,7 +135,8 @@ def make_cable(scenario: Scenario) -> Cable:
 def at_moment(cable: Cable, outside: Exogenous) -> Moment:
     """What the kernels need of the outside world."""
     sinks = outside.sink_speed
-    hung = sinking(cable.hanging, cable.axial_drag, sinks)
+    carried = sinking(cable.hanging, cable.axial_drag, sinks)
+    hung = stretched(carried, outside.elastic_tension, outside.elastic_gradient)
     return Moment(
         outside.length,
         outside.payout_speed,

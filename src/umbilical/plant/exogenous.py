@@ -19,6 +19,7 @@ from umbilical.frames import Frame, real
 from umbilical.plant import faults, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.plant.seaway import heaving
+from umbilical.plant.stretching import Stretching, stretching
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.instants import slack
 from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
@@ -58,6 +59,10 @@ class Exogenous(Frame):
     heave = real()
     sink_speed = real()
     sink_acceleration = real()
+    elastic_tension = real()
+    elastic_gradient = real()
+    elastic_tension_rate = real()
+    elastic_gradient_rate = real()
     current_factor = real()
     current_rate = real()
 
@@ -77,6 +82,8 @@ WINCH = ("length", "payout_speed", "payout_acceleration", "net_gravity", "relati
 """Quantities of :class:`Exogenous` that the winch gives, the first it has."""
 SINKING = ("heave", "sink_speed", "sink_acceleration")
 """What it gives besides where there is water or the sheave heaves."""
+STRETCHING = ("elastic_tension", "elastic_gradient", "elastic_tension_rate", "elastic_gradient_rate")
+"""What follows besides where heave stretches the cable."""
 
 
 class Inputs(NamedTuple):
@@ -173,7 +180,9 @@ class Outside:
         self._inputs = _empty(scenario, 0)
         environment = scenario.environment
         self._sea = environment if heaving(environment) else None
-        self._wanted = WINCH + SINKING if heaving(environment) or environment.water else WINCH
+        self._stretching = stretching(scenario.winch, environment, scenario.cable, scenario.payload, scenario.duration)
+        sinks = SINKING if heaving(environment) or environment.water else ()
+        self._wanted = WINCH + sinks + (STRETCHING if self._stretching else ())
 
     def sample(self, steps: Steps) -> Inputs:
         """All inputs at the given steps. The arrays are used again by the next call."""
@@ -183,7 +192,7 @@ class Outside:
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
         inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
-        rows = _kept(_winch_at, steps)(self._scenario.winch, self._sea, environment.gravity, steps)
+        rows = _kept(_winch_at, steps)(self._scenario.winch, self._sea, self._stretching, environment.gravity, steps)
         for name, row in zip(self._wanted, rows, strict=False):
             inputs.world[name].T[:] = row[:2]
         if variation_of(environment):
@@ -224,15 +233,16 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
 @lru_cache(maxsize=16)
-def _winch_at(law: Winch, sea: Environment | None, gravity: float, steps: Steps) -> Array:
-    """Winch and what follows from it, rows as :data:`WINCH` and :data:`SINKING` name them; ``sea`` if it heaves."""
+def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, gravity: float, steps: Steps) -> Array:
+    """Winch and what follows from it, rows as :data:`WINCH` and what else is wanted name them; ``sea`` if it heaves."""
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
-        top = top_at(law, t, side, sea)
+        top = top_at(law, t, side, sea, elastic)
         own = top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity)
-        return *own, top.heave, top.sink_speed, top.sink_acceleration
+        more = (top.heave, top.sink_speed, top.sink_acceleration, *top[-len(STRETCHING) :])
+        return own + more[: len(SINKING) + len(STRETCHING) * bool(elastic)]
 
-    rows = np.zeros((len(WINCH + SINKING), 3, steps.start.size))
+    rows = np.zeros((len(WINCH + SINKING) + len(STRETCHING) * bool(elastic), 3, steps.start.size))
     _fill(rows, motion, steps, middle=False)
     return rows
 

@@ -48,7 +48,7 @@ class _Tables:
             here = number == block
             step = place[here] - block * _BLOCK
             rows = self._block(int(block))[:, order : order + 3]
-            found[here] = _quintic(rows[step], rows[step + 1], flat[here] / STEP - place[here])
+            found[here] = quintic(rows[step], rows[step + 1], flat[here] / STEP - place[here])
         return found.reshape(t.shape)
 
     def _block(self, number: int) -> np.ndarray:
@@ -62,7 +62,7 @@ class _Tables:
         return self._blocks[number]
 
 
-def _quintic(left: np.ndarray, right: np.ndarray, share: np.ndarray) -> np.ndarray:
+def quintic(left: np.ndarray, right: np.ndarray, share: np.ndarray) -> np.ndarray:
     """Quintic of value, slope and curvature at both ends, each of the shape (n, 3), at shares of the step."""
     value, slope, curve = left[:, 0], left[:, 1] * STEP, left[:, 2] * STEP**2 / 2.0
     rest = right[:, 0] - value - slope - curve

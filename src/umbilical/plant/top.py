@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from umbilical.plant import seaway, signals, winch
 from umbilical.plant.signals import Array, Side
+from umbilical.plant.stretching import Stretching
 from umbilical.relations import tension
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.winch import Winch
@@ -28,6 +29,8 @@ class Top(NamedTuple):
         speed, acceleration, jerk: of the winch, positive paying out: v, m/s, a, m/s2, and a', m/s3.
         heave: of the sheave, m, up.
         sink_speed, sink_acceleration, sink_jerk: of the cable through the water: those of the winch less the heave's.
+        elastic_tension, elastic_gradient: what stretch adds to the tension at the ROV, N, and per metre, N/m.
+        elastic_tension_rate, elastic_gradient_rate: their rates.
     """
 
     length: Array
@@ -38,6 +41,10 @@ class Top(NamedTuple):
     sink_speed: Array
     sink_acceleration: Array
     sink_jerk: Array
+    elastic_tension: Array
+    elastic_gradient: Array
+    elastic_tension_rate: Array
+    elastic_gradient_rate: Array
 
     def net_gravity(self, gravity: float) -> Array:
         """g less the acceleration at which the cable sinks, m/s2."""
@@ -48,10 +55,17 @@ class Top(NamedTuple):
         return tension.relative_jerk(self.sink_jerk, self.net_gravity(gravity))
 
 
-def top_at(law: Winch, t: ArrayLike, side: Side = "right", environment: Environment | None = None) -> Top:
+def top_at(
+    law: Winch,
+    t: ArrayLike,
+    side: Side = "right",
+    environment: Environment | None = None,
+    stretching: Stretching | None = None,
+) -> Top:
     """The top end at instants, s, of any shape; ``side`` is the limit to take exactly at a jump.
 
-    Without an ``environment`` the sheave does not heave: ask so for the winch's motion alone.
+    Without an ``environment`` the sheave does not heave: ask so for the winch's motion alone. ``stretching`` is what
+    heave makes of a cable that stretches.
 
     >>> from umbilical.scenario.winch import ConstantSpeed
     >>> top = top_at(ConstantSpeed(law="speed", start_length=450.0, speed=-2.0), [0.0, 10.0])
@@ -60,15 +74,20 @@ def top_at(law: Winch, t: ArrayLike, side: Side = "right", environment: Environm
     """
     motion = winch.evaluate(law, t, side)
     if environment is None or not seaway.heaving(environment):
-        return Top(*motion, np.zeros_like(motion.length), motion.speed, motion.acceleration, motion.jerk)
+        none = np.zeros_like(motion.length)
+        return Top(*motion, none, motion.speed, motion.acceleration, motion.jerk, none, none, none, none)
     heave = signals.heave(environment, t, side)
-    sinks = (own - up for own, up in zip(motion[1:], heave[1:], strict=True))
-    return Top(*motion, heave[0], *sinks)
+    speed = np.array(motion[1:])
+    sinks = speed - np.array(heave[1:])
+    elastic = stretching.at(np.asarray(t), speed, sinks, side) if stretching else np.zeros((4, *np.shape(t)))
+    return Top(*motion, heave[0], *sinks, *elastic)
 
 
-def top_on_both_sides(law: Winch, t: Array, environment: Environment | None = None) -> Top:
+def top_on_both_sides(
+    law: Winch, t: Array, environment: Environment | None = None, stretching: Stretching | None = None
+) -> Top:
     """All limits from the left, then all from the right, shape (2 n,) for n instants."""
-    sides = top_at(law, t, "left", environment), top_at(law, t, "right", environment)
+    sides = (top_at(law, t, side, environment, stretching) for side in ("left", "right"))
     return _joined(np.concatenate(pair) for pair in zip(*sides, strict=True))
 
 

@@ -106,6 +106,12 @@ def across(hung: Hanging, coupling: Real, speed: Real) -> Hanging:
 
 
 @formula
+def stretched(hung: Hanging, foot: Real, gradient: Real) -> Hanging:
+    """What hangs on a cable that stretches: ``foot``, N, is added to T at the ROV and ``gradient``, N/m, above it."""
+    return Hanging(hung.mass, hung.line_density, hung.buoyancy - foot, hung.line_buoyancy - gradient)
+
+
+@formula
 def sliding_rates(
     hung: Hanging, drag: AxialDrag, coupling: Real, slip: Real, net: Real, speed: Real, acceleration: Real
 ) -> tuple[Real, Real]:

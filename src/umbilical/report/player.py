@@ -207,6 +207,8 @@ def _frames(time: np.ndarray, rate: float) -> np.ndarray:
 def _tensions(run: Run, kept: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Tension at the vessel and at the ROV, N; it is linear between them."""
     scenario = run.scenario
+    if "top_tension" in run.data:
+        return run["top_tension"].values[kept], run["end_tension"].values[kept]
     hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
     net = net_gravity(scenario.environment.gravity, run["payout_acceleration"].values[kept])
     return tension(run["length"].values[kept], net, hung), tension(np.zeros(kept.size), net, hung)

@@ -20,6 +20,10 @@ class Cable(Record):
         "wet_line_density", None, ge=0.0, le=1e4, reason="a cable that floats does not hang",
         cure="kg per metre, its weight in water over g: 0 floats, left out it weighs as in air",
     )  # fmt: skip
+    axial_stiffness: float | None = quantity(
+        "axial_stiffness", None, gt=0.0, reason="the cable is elastic",
+        cure="newton, from the maker; on the string it counts where heave enters the tension",
+    )  # fmt: skip
     water: CableInWater | None = None
 
 

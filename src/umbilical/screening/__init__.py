@@ -4,7 +4,7 @@ The cable is an elastic bar in line with its own tension, the body hangs at its 
 heaves with the vessel. Drag on the body is linearised for the sea at hand.
 """
 
-from umbilical.screening.axial import HeaveTransfer, axial_period, heave_transfer
+from umbilical.relations.axial import HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.load import load_operation, operation_names
 from umbilical.screening.lower import Lowering, lower
 from umbilical.screening.operate import Operability, operate

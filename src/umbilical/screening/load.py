@@ -13,11 +13,11 @@ from umbilical import files
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.library.recorded import consequences, forget, read_files
 from umbilical.plant.checks.weights import cable_in_water, payload_in_water
+from umbilical.relations.axial import Bar
 from umbilical.scenario.document import freeze, read, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.scenario.ship import RaoShip
-from umbilical.screening.axial import Bar
 from umbilical.screening.operation import Operation
 from umbilical.sea.rao_checks import table_problems
 

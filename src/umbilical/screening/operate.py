@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.result import ResultFaces
 from umbilical.scenario.ship import RaoShip
-from umbilical.screening.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation

@@ -1,7 +1,5 @@
 """Statistics of cable and body in one sea: linear transfer, with the body's drag linearised for that sea.
 
-Drag D |u| u of a body that moves with u = mean + Gaussian is replaced by the damping k with the least mean square
-error, k = 2 D E|u|; without a mean that is D sqrt(8/pi) sigma. sigma depends on k, so k is a root.
 Extremes are those of a narrow-banded Gaussian process: a level is passed within a time T with the probability
 ``1 - exp(-nu T exp(-level^2/(2 sigma^2)))``, nu the rate of upward crossings of the mean.
 """
@@ -9,15 +7,13 @@ Extremes are those of a narrow-banded Gaussian process: a level is passed within
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import erf
 
 from umbilical.errors import ScenarioError
+from umbilical.relations.axial import axial_period, heave_transfer, linearised_damping, mean_drag
 from umbilical.relations.tension import hanging_of, net_gravity, tension_gain
-from umbilical.screening.axial import axial_period, heave_transfer
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import HeaveCompensation, Operation
 from umbilical.sea.rao import RaoVessel, sheave_of, vessel_of
@@ -86,20 +82,18 @@ def respond(
     bar, drag = bar_of(operation, depth), operation.payload.quadratic_drag
     heave = sheave_energy(operation, spectrum.density(FREQUENCIES), heading)
 
-    def excess(damping: float) -> float:
-        moving = spread(abs(heave_transfer(bar, np.array([damping]), FREQUENCIES).body) ** 2 * FREQUENCIES**2, heave)
-        return float(damping - equivalent_damping(drag, payout_speed, moving.rms[0]))
+    def moving(damping: float) -> float:
+        answer = heave_transfer(bar, np.array([damping]), FREQUENCIES)
+        return float(spread(abs(answer.body) ** 2 * FREQUENCIES**2, heave).rms[0])
 
-    largest = 1.0 + equivalent_damping(drag, payout_speed, 100.0)
-    damping: Any = brentq(excess, 0.0, largest, xtol=1e-6) if drag > 0.0 else 0.0
+    damping = linearised_damping(drag, payout_speed, moving)
     answer = heave_transfer(bar, np.array([damping]), FREQUENCIES)
-    velocity = spread(abs(answer.body) ** 2 * FREQUENCIES**2, heave).rms[0]
     body, end, top = (Spread(*(part[0] for part in spread(abs(h) ** 2, heave))) for h in answer[:3])
-    end_mean = operation.payload.wet_weight - mean_drag(drag, payout_speed, velocity)
+    end_mean = operation.payload.wet_weight - mean_drag(drag, payout_speed, moving(damping))
     hung = hanging_of(operation.cable, operation.payload, operation.environment)
     hanging = tension_gain(depth, net_gravity(operation.environment.gravity), hung)
     sheave = Spread(*(part[0] for part in spread(np.ones((1, FREQUENCIES.size)), heave)))
-    return Response(depth, axial_period(bar), sheave, body, end, top, float(damping), end_mean, end_mean + hanging)
+    return Response(depth, axial_period(bar), sheave, body, end, top, damping, end_mean, end_mean + hanging)
 
 
 def sheave_energy(operation: Operation, density: np.ndarray, heading: float) -> np.ndarray:
@@ -142,28 +136,6 @@ def spread(gain: np.ndarray, energy: np.ndarray) -> Spread:
     weighted = energy * STEPS if energy.ndim == 1 else energy * STEPS[:, None]
     zeroth, second = gain @ weighted, (gain * FREQUENCIES**2) @ weighted
     return Spread(np.sqrt(zeroth), 2.0 * np.pi * np.sqrt(zeroth / np.maximum(second, np.finfo(float).tiny)))
-
-
-def equivalent_damping(quadratic: float, mean: float, rms: float) -> float:
-    """Damping with the least mean square error, 2 D E|u| for u Gaussian with this mean and rms, N s/m.
-
-    >>> round(equivalent_damping(4500.0, 0.0, 0.5) / (4500.0 * 0.5), 6)
-    1.595769
-    """
-    if rms <= 0.0:
-        return 2.0 * quadratic * abs(mean)
-    ratio = mean / rms
-    spread_part = rms * np.sqrt(2.0 / np.pi) * np.exp(-(ratio**2) / 2.0)
-    return float(2.0 * quadratic * (spread_part + mean * erf(ratio / np.sqrt(2.0))))
-
-
-def mean_drag(quadratic: float, mean: float, rms: float) -> float:
-    """D E[|u| u], N: what steady motion through the water takes from the tension, more of it in waves."""
-    if rms <= 0.0:
-        return quadratic * abs(mean) * mean
-    ratio = mean / rms
-    odd = (1.0 + ratio**2) * erf(ratio / np.sqrt(2.0)) + ratio * np.sqrt(2.0 / np.pi) * np.exp(-(ratio**2) / 2.0)
-    return float(quadratic * rms**2 * odd)
 
 
 def exceedance(level: np.ndarray | float, process: Spread, duration: float) -> np.ndarray:

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from umbilical.relations.axial import Bar, heave_transfer
 from umbilical.scenario.ship import RaoShip
 from umbilical.screening import load_operation, operate, respond
-from umbilical.screening.axial import Bar, heave_transfer
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.operation import HeaveCompensation
 from umbilical.screening.response import residual

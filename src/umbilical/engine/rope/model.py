@@ -37,7 +37,7 @@ from umbilical.plant import faults
 from umbilical.plant.exogenous import published_jumps
 from umbilical.plant.layout import positions
 from umbilical.plant.motors import MotorState, make_motors
-from umbilical.plant.rope.assemble import initial_rope, rope_of, rope_step, section
+from umbilical.plant.rope.assemble import initial_rope, rope_of, rope_step, section, stated_stiffness
 from umbilical.plant.rope.energy import energy
 from umbilical.plant.rope.outside import RopeSampler, still_water
 from umbilical.plant.rope.records import POWERS, STAGES, Rope, RopeOutside
@@ -192,9 +192,9 @@ class RopeModel:
     def notices(self) -> tuple[str, ...]:
         tally, scenario = self._record.tally, self._scenario
         found = [str(notice) for notice in saturation_notices(scenario, tally)]
-        if section(scenario).axial_stiffness is None:
+        if stated_stiffness(scenario) is None:
             found.append(
-                f"rope.axial_stiffness: left out, {self._rope.stiffness:.4g} N assumed: ten thousand times the static "
+                f"cable.axial_stiffness: left out, {self._rope.stiffness:.4g} N assumed: ten thousand times the static "
                 "tension at the vessel"
             )
         if tally.watch[0].smallest_stretch < DENSE:

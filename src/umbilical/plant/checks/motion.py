@@ -15,6 +15,7 @@ from umbilical.plant.checks import seas
 from umbilical.plant.checks.timeline import signals_of_the_environment, tables_of_the_winch
 from umbilical.plant.seaway import heaving
 from umbilical.plant.signals import table_jumps
+from umbilical.plant.stretching import Stretching, stretching
 from umbilical.plant.top import Top, top_at, top_on_both_sides, vessel_at
 from umbilical.relations.tension import (
     Hanging,
@@ -25,7 +26,9 @@ from umbilical.relations.tension import (
     sinking,
     slack_acceleration,
     smallest_tension,
+    stretched,
 )
+from umbilical.relations.tension import tension as tension_at
 from umbilical.relations.water import in_water
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.findings import Finding, amount
@@ -53,16 +56,24 @@ def sampled_winch(winch: Winch, duration: float) -> tuple[np.ndarray, Top] | Non
     return _sampled_top(_hashed(winch), None, duration)
 
 
-def sampled_top(winch: Winch, environment: Environment, duration: float) -> tuple[np.ndarray, Top] | None:
-    """The same with the heave of the sheave; None also where that is no smooth function yet."""
+def sampled_top(
+    winch: Winch, environment: Environment, duration: float, cable: Cable | None = None, payload: Payload | None = None
+) -> tuple[np.ndarray, Top] | None:
+    """The same with the heave of the sheave; None also where that is no smooth function yet.
+
+    With ``cable`` and ``payload`` also with what the cable's stretch makes of the tension.
+    """
     if any(isinstance(finding, Problem) for finding in seas.systems(environment)):
         return None
     if not heaving(environment):
         return _sampled_top(_hashed(winch), None, duration)
+    if not sampled_winch(winch, duration):
+        return None
     rough = any(isinstance(term, Step | Pulse | Bell) for term in heaving(environment))
     if rough or any(isinstance(f, Problem) for f in signals_of_the_environment(environment, duration)):
         return None
-    return _sampled_top(_hashed(winch), _hashed(environment), duration)
+    elastic = stretching(winch, environment, cable, payload, duration) if cable and payload else None
+    return _sampled_top(_hashed(winch), _hashed(environment), duration, elastic)
 
 
 def _hashed(record: Any) -> Any:
@@ -71,7 +82,9 @@ def _hashed(record: Any) -> Any:
 
 
 @lru_cache(maxsize=16)
-def _sampled_top(winch: Winch, environment: Environment | None, duration: float) -> tuple[np.ndarray, Top] | None:
+def _sampled_top(
+    winch: Winch, environment: Environment | None, duration: float, elastic: Stretching | None = None
+) -> tuple[np.ndarray, Top] | None:
     if any(True for _ in tables_of_the_winch(winch, duration)):
         return None
     marks = [0.0, duration, *laws.jumps(winch)]
@@ -79,7 +92,7 @@ def _sampled_top(winch: Winch, environment: Environment | None, duration: float)
         marks += list(np.arange(5) * np.pi / (2.0 * winch.frequency))  # all its extremes, however fast it is
     pieces = np.unique(np.clip(marks, 0.0, duration))
     t = np.unique(np.concatenate([np.linspace(0.0, duration, _samples(environment, duration)), _refined(pieces)]))
-    return np.tile(t, 2), top_on_both_sides(winch, t, environment)
+    return np.tile(t, 2), top_on_both_sides(winch, t, environment, elastic)
 
 
 def _samples(environment: Environment | None, duration: float) -> int:
@@ -112,23 +125,38 @@ def tension(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
     """The tension stays above 0 all along the cable: the winch never outruns the fall of what hangs on it."""
-    if not (sampled := sampled_top(winch, environment, duration)):
+    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return
     t, motion = sampled
     hung = sunk(motion, cable, payload, environment)
     bound = slack_acceleration(_possible(motion.length), environment.gravity, hung)
     worst = int(np.argmax(motion.sink_acceleration - bound))
     if not motion.sink_acceleration[worst] < bound[worst]:
-        heaves = bool(heaving(environment)) and _stays_taut(winch, duration, environment, cable, payload)
+        if heaving(environment) and _stays_taut(winch, duration, environment, cable, payload):
+            yield _slack(t, motion, cable, payload, environment)
+            return
         drags = f", sinking at {motion.sink_speed[worst]:.4g} m/s" if environment.water else ""
         yield Problem(
-            _heave_key(environment) if heaves else _ACCELERATION_KEY.get(winch.law, "winch"),
+            _ACCELERATION_KEY.get(winch.law, "winch"),
             f"an acceleration of {amount(motion.sink_acceleration[worst], 'm/s2')} at {t[worst]:.6g} s{drags}",
             f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
             "the tension, the weight below a point less its mass times the acceleration"
             f"{' and less its drag' if drags else ''}, must stay above 0: a cable cannot push",
-            'a calmer sea, or model = "rope", which knows a slack cable' if heaves else "pay out more gently",
+            "pay out more gently",
         )
+
+
+def _slack(t: np.ndarray, motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Problem:
+    """The least tension that heave leaves, where it is and when."""
+    net, hung = motion.net_gravity(environment.gravity), sunk(motion, cable, payload, environment)
+    lengths = {"at the ROV": np.zeros(t.size), "at the sheave": _possible(motion.length)}
+    where, pull = min(((name, tension_at(s, net, hung)) for name, s in lengths.items()), key=lambda end: end[1].min())
+    worst = int(np.argmin(pull))
+    return Problem(
+        _heave_key(environment), f"a tension of {amount(float(pull[worst]), 'N')} {where} at {t[worst]:.6g} s",
+        "above 0 all along the cable", "a cable cannot push: it goes slack, and no string follows",
+        'a calmer sea, or model = "rope", which knows a slack cable',
+    )  # fmt: skip
 
 
 def _heave_key(environment: Environment) -> str:
@@ -144,7 +172,8 @@ def _stays_taut(winch: Winch, duration: float, environment: Environment, cable: 
 def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Hanging:
     """What hangs on the cable at each instant while it sinks as the top end says."""
     hung = hanging_of(cable, payload, environment)
-    return sinking(hung, axial_drag_of(cable, payload, environment), motion.sink_speed)
+    carried = sinking(hung, axial_drag_of(cable, payload, environment), motion.sink_speed)
+    return stretched(carried, motion.elastic_tension, motion.elastic_gradient)
 
 
 class Waves(NamedTuple):
@@ -176,7 +205,7 @@ def wave_speed(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
     """The winch stays slower than the waves, which are slowest where the tension is smallest."""
-    if not (sampled := sampled_top(winch, environment, duration)):
+    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return
     t, motion = sampled
     waves = waves_of(motion, cable, payload, environment)

@@ -55,14 +55,19 @@ def stretch(scenario: Scenario) -> Iterator[Finding]:
     given, load = stiffness(scenario), max(weights_of(scenario))
     if given < _WEAK * load:
         yield Problem(
-            "rope.axial_stiffness",
+            stiffness_key(scenario),
             amount(given, "N"),
             f"above {_WEAK * load:.4g} N, ten times the static tension",
             "the cable would stretch by more than a tenth, where no material is linear",
             "the force over strain of the whole cable, EA, in newton",
         )
     elif given < _STIFF * load:
-        yield Notice("rope.axial_stiffness", f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
+        yield Notice(stiffness_key(scenario), f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
+
+
+def stiffness_key(scenario: Scenario) -> str:
+    """Where a scenario says how stiff the cable is."""
+    return "rope.axial_stiffness" if section(scenario).axial_stiffness is not None else "cable.axial_stiffness"
 
 
 def weights(scenario: Scenario) -> Iterator[Finding]:

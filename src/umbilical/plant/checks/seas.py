@@ -8,7 +8,7 @@ import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant.orbital import moves_the_water
-from umbilical.plant.seaway import directions_of, sheave, spectrum_of, waves_of
+from umbilical.plant.seaway import directions_of, spectrum_of, waves_of
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.ship import RaoShip
@@ -48,7 +48,7 @@ def systems(environment: Environment) -> Iterator[Finding]:
 
 def vessel(environment: Environment) -> Iterator[Finding]:
     """A table of RAOs is as declared and knows the sea; what it leaves out is told."""
-    if (sea := environment.sea) is None or not _sound(environment):
+    if (sea := environment.sea) is None or not sound(environment):
         return
     if not isinstance(sea.vessel, RaoShip):
         yield Notice("environment.sea.vessel", "surge and sway of the closed form are those of the water (assumed)")
@@ -66,7 +66,7 @@ def vessel(environment: Environment) -> Iterator[Finding]:
 
 def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
     """A run that is longer than its waves take to be back in phase repeats itself."""
-    if (sea := environment.sea) is None or not _sound(environment) or not (waves := waves_of(sea)):
+    if (sea := environment.sea) is None or not sound(environment) or not (waves := waves_of(sea)):
         return
     longest = max(components.repeat_period for _, components in waves)
     if duration > longest:
@@ -75,26 +75,6 @@ def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
             "environment.sea.systems",
             f"the waves repeat themselves after about {longest:.0f} s, and the run takes {duration:g} s; some {need} "
             "components do not",
-        )
-
-
-def heave_has_its_model(environment: Environment, model: str) -> Iterator[Finding]:
-    """What becomes of the heave is told: left out, in the tension without the cable's stretch, or all of it."""
-    if (sea := environment.sea) is None or not _sound(environment) or not sheave(environment).up:
-        return
-    if model == "rope" and sea.heave:
-        reason = "the rope always heaves; the key is for the string's tension"
-        yield Problem("environment.sea.heave", "true", 'left out where model = "rope"', reason, "leave it out")
-    elif sea.heave:
-        yield Notice(
-            "environment.sea.heave",
-            "heave enters the tension as of a cable that does not stretch: too little where waves are shorter than 2.5 "
-            'axial periods of cable and body (`umbilical operate` names them; model = "rope" stretches)',
-        )
-    elif model != "rope":
-        yield Notice(
-            "environment.sea",
-            'the sheave\'s heave is left out of the tension (environment.sea.heave, or model = "rope")',
         )
 
 
@@ -120,5 +100,6 @@ def regular_waves(environment: Environment) -> Iterator[Finding]:
                               "they are tabulated every 0.1 s", "sine terms for what is faster")  # fmt: skip
 
 
-def _sound(environment: Environment) -> bool:
+def sound(environment: Environment) -> bool:
+    """Whether all wave systems are."""
     return not any(isinstance(finding, Problem) for finding in systems(environment))

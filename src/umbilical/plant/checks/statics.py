@@ -13,8 +13,9 @@ from umbilical.plant.checks.motion import sampled_top
 from umbilical.plant.checks.timeline import shapes, signals_of_the_environment
 from umbilical.plant.current import speeds_at
 from umbilical.plant.exogenous import current_at, profile
+from umbilical.plant.stretching import stretching
 from umbilical.plant.top import top_at
-from umbilical.relations.tension import axial_drag_of, hanging_of, sinking, tension
+from umbilical.relations.tension import axial_drag_of, hanging_of, sinking, stretched, tension
 from umbilical.relations.water import in_water, line_inertia
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape
@@ -80,11 +81,14 @@ def steady_slope(
     if not loaded and (not environment.payload_force or control.law.boundary_gains):
         return Steady(0.0, 0.0, True)
     t, sigma = np.linspace(0.0, duration, _INSTANTS), np.linspace(0.0, 1.0, _POSITIONS)
-    motion = top_at(winch, t, environment=environment)
+    elastic = stretching(winch, environment, cable, payload, duration)
+    motion = top_at(winch, t, environment=environment, stretching=elastic)
     length = motion.length[:, None]
     net = motion.net_gravity(environment.gravity)[:, None]
     hung, drag = hanging_of(cable, payload, environment), axial_drag_of(cable, payload, environment)
-    pull = tension(length * (1.0 - sigma), net, sinking(hung, drag, motion.sink_speed[:, None]))
+    stretch = motion.elastic_tension[:, None], motion.elastic_gradient[:, None]
+    hung = stretched(sinking(hung, drag, motion.sink_speed[:, None]), *stretch)
+    pull = tension(length * (1.0 - sigma), net, hung)
     if not pull.min() > 0.0:
         return Steady(0.0, 0.0, True)  # a slack cable has its own problem
     found = in_water(cable, payload, environment)

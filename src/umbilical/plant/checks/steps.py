@@ -64,7 +64,7 @@ def wave_step(
     cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
 ) -> float:
     """Longest stable step for the fastest wave in the shortest element throughout the run, s."""
-    if not (sampled := sampled_top(winch, environment, duration)):
+    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return float("inf")  # the winch has its own problem
     _, motion = sampled
     found = waves_of(motion, cable, payload, environment)
@@ -115,7 +115,7 @@ def waves_that_leave(
     grid: Grid,
 ) -> Iterator[Finding]:
     """The ROV loses momentum to the waves it sends up the cable, at the rate ``sqrt(rho T)/m``."""
-    if not (sampled := sampled_top(winch, environment, duration)):
+    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return
     net, hung = sampled[1].net_gravity(environment.gravity), sunk(sampled[1], cable, payload, environment)
     pull = max(float(np.max(tension(0.0, net, hung))), 0.0)

@@ -29,9 +29,15 @@ def section(scenario: Scenario) -> RopeSection:
     return scenario.rope or RopeSection()
 
 
+def stated_stiffness(scenario: Scenario) -> float | None:
+    """EA as the scenario says it, of the rope or of the cable, N."""
+    own = section(scenario).axial_stiffness
+    return scenario.cable.axial_stiffness if own is None else own
+
+
 def stiffness(scenario: Scenario) -> float:
     """EA, N: given, or assumed from the static tension at the vessel on the longest length of the run."""
-    if (given := section(scenario).axial_stiffness) is not None:
+    if (given := stated_stiffness(scenario)) is not None:
         return given
     lengths = _lengths(scenario)
     hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)

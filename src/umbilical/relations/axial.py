@@ -5,16 +5,19 @@ linear damping k, the cable's c per metre and the loss factor h of its material:
 
     E U'' = -(rho w^2 - i w c) U,    U(0) = 1,    E U'(l) = (w^2 M - i w k) U(l),    E = EA (1 + i h)
 
-The dynamic tension is E U'. Source: textbook, rod with an end mass; compared in ``umbilical verify`` with lumped
-masses.
+The dynamic tension is -E U', x counting down from the sheave. Drag D |u| u of a body that moves with u = mean +
+Gaussian is replaced by the damping k with the least mean square error, k = 2 D E|u|; without a mean that is
+D sqrt(8/pi) sigma. sigma depends on k, so k is a root. Source: textbook, rod with an end mass; compared in
+``umbilical verify`` with lumped masses.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import erf, exp, pi, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 
 class Bar(NamedTuple):
@@ -94,6 +97,41 @@ def axial_period(bar: Bar) -> float:
     >>> round(axial_period(Bar(2.6e7, 5.412, 17000.0, 1500.0)), 2)
     6.71
     """
+    from scipy.optimize import brentq  # slow to import
+
     ratio = bar.line_density * bar.length / bar.mass
     root: Any = brentq(lambda b: b * np.sin(b) - ratio * np.cos(b), 0.0, np.pi / 2.0, xtol=1e-14)
     return float(2.0 * np.pi * bar.length / (bar.speed * root))
+
+
+def equivalent_damping(quadratic: float, mean: float, rms: float) -> float:
+    """Damping with the least mean square error, 2 D E|u| for u Gaussian with this mean and rms, N s/m.
+
+    >>> round(equivalent_damping(4500.0, 0.0, 0.5) / (4500.0 * 0.5), 6)
+    1.595769
+    """
+    if rms <= 0.0:
+        return 2.0 * quadratic * abs(mean)
+    ratio = mean / rms
+    spread_part = rms * sqrt(2.0 / pi) * exp(-(ratio**2) / 2.0)
+    return 2.0 * quadratic * (spread_part + mean * erf(ratio / sqrt(2.0)))
+
+
+def linearised_damping(quadratic: float, mean: float, rms: Callable[[float], float]) -> float:
+    """Solve ``k = 2 D E|u|`` for the damping, N s/m; ``rms`` gives the body's velocity, m/s, under a damping."""
+    if quadratic == 0.0:
+        return 0.0
+    from scipy.optimize import brentq  # slow to import
+
+    largest = 1.0 + equivalent_damping(quadratic, mean, 100.0)
+    found: Any = brentq(lambda k: k - equivalent_damping(quadratic, mean, rms(k)), 0.0, largest, xtol=1e-6)
+    return float(found)
+
+
+def mean_drag(quadratic: float, mean: float, rms: float) -> float:
+    """D E[|u| u], N: what steady motion through the water takes from the tension, more of it in waves."""
+    if rms <= 0.0:
+        return quadratic * abs(mean) * mean
+    ratio = mean / rms
+    odd = (1.0 + ratio**2) * erf(ratio / sqrt(2.0)) + ratio * sqrt(2.0 / pi) * exp(-(ratio**2) / 2.0)
+    return quadratic * rms**2 * odd

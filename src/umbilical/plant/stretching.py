@@ -1,0 +1,245 @@
+"""What the cable's stretch makes of heave in the string's tension: the linear axial transfer of every wave.
+
+The string's tension is that of a cable that does not stretch (``relations/tension.py``). Where waves come nearer than
+:data:`NEAR` to the first axial period T1 of cable and body that errs by ``1/(1 - (T1/T)^2)``. The tension is then the
+sum over the waves of the answer of an elastic bar (``relations/axial.py``), the ROV's drag linearised for the sea and
+the winch's speed::
+
+    T(s, t) = W + w s - (m + A_z + rho s) a - D E[|u| u] - c s v_z |v_z| - Re sum a_j E U'_j(s) e^{i w_j t}
+
+at both ends of the cable; between them the line through both. What is computed here is the difference to the
+quasi-static tension, which everything else that depends on heave keeps. The transfer follows length and speed of the
+winch; it is worked out every :data:`_EVERY` s and linear between.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from umbilical.plant import regular, signals, winch
+from umbilical.plant.seaway import heaving
+from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer, linearised_damping, mean_drag
+from umbilical.relations.tension import axial_drag_of, hanging_of
+from umbilical.scenario.environment import Environment
+from umbilical.scenario.hardware import Cable, Payload
+from umbilical.scenario.signals import Sine, Waves
+from umbilical.scenario.winch import Winch
+
+NEAR = 2.5
+"""Periods of waves over T1 from which on a cable may be taken not to stretch."""
+SHORT = 0.01
+"""Share of the acceleration's energy that the shortest waves may hold before they count."""
+_STEPS, _KEPT, _INSTANTS = 128, 64, 2001
+_EVERY = _STEPS * regular.STEP
+_FOOT, _GRADIENT = range(2)
+_BINOMIAL = np.arange(4.0)
+
+
+class Elastic(NamedTuple):
+    """What stretch adds to the tension at the ROV, N, and per metre above it, N/m, and their rates, 1/s."""
+
+    tension: np.ndarray
+    gradient: np.ndarray
+    tension_rate: np.ndarray
+    gradient_rate: np.ndarray
+
+
+class Difference(NamedTuple):
+    """Root mean square of the dynamic tension at ROV and sheave on the longest cable, N, either way.
+
+    Attributes:
+        length: m; period: T1, s; shortest: period of the shortest waves that count, s.
+        end, top: with stretch; rigid_end, rigid_top: as of a cable that does not stretch.
+        middle: what the line between the ends leaves out half way.
+    """
+
+    length: float
+    period: float
+    shortest: float
+    end: float
+    top: float
+    rigid_end: float
+    rigid_top: float
+    middle: float
+
+
+class _Answer(NamedTuple):
+    """Tension at the ROV and per metre above it, of every wave, and the mean drag that waves add, N."""
+
+    amplitude: np.ndarray
+    drag: float
+
+
+def stretching(
+    law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float
+) -> Stretching | None:
+    """What stretch makes of the heave of a scenario; None where the cable may be taken not to stretch, or is not known.
+
+    ``law`` and the heave's signals must be sound.
+    """
+    if cable.axial_stiffness is None or not heaving(environment):
+        return None
+    known: Any = (law, environment, cable, payload, duration)  # frozen records have a hash
+    found = _stretching(*known)
+    return found if found.omega.size and found.shortest <= NEAR * found.period else None
+
+
+def difference(
+    law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float
+) -> Difference | None:
+    """How far both ways are apart; None where the stiffness is not known or no regular wave heaves."""
+    if cable.axial_stiffness is None or not heaving(environment):
+        return None
+    known: Any = (law, environment, cable, payload, duration)
+    found = _stretching(*known)
+    return found.difference() if found.omega.size else None
+
+
+@lru_cache(maxsize=8)
+def _stretching(law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float) -> Stretching:
+    return Stretching(law, environment, cable, payload, duration)
+
+
+class Stretching:
+    """The axial transfer along a run."""
+
+    def __init__(self, law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float) -> None:
+        self._law, self._ramp, self._duration = law, environment.vessel_ramp, duration
+        self._hung = hanging_of(cable, payload, environment)
+        self._drag = axial_drag_of(cable, payload, environment).body
+        self._stiffness = float(cable.axial_stiffness or 0.0)
+        self.omega, self._heave = _regular(environment)
+        self._turns = np.exp(1j * np.outer(np.arange(_STEPS + 1) * regular.STEP, self.omega))
+        self.longest = float(winch.evaluate(law, np.linspace(0.0, duration, _INSTANTS)).length.max())
+        self._answers: dict[tuple[float, float], _Answer] = {}
+        self._blocks: OrderedDict[int, np.ndarray] = OrderedDict()
+
+    @property
+    def period(self) -> float:
+        """T1 on the longest cable of the run, s."""
+        return axial_period(self._bar(self.longest))
+
+    @property
+    def shortest(self) -> float:
+        """Period of the shortest waves that count, s."""
+        order = np.argsort(-self.omega)
+        energy = np.cumsum(abs(self._heave[order]) ** 2 * self.omega[order] ** 4)
+        return float(2.0 * np.pi / self.omega[order][np.searchsorted(energy, SHORT * energy[-1])])
+
+    def at(self, t: np.ndarray, speed: np.ndarray, sinks: np.ndarray, side: signals.Side) -> Elastic:
+        """What stretch adds at instants, s.
+
+        Args:
+            t: instants, any shape.
+            speed, sinks: speed, acceleration and jerk of the winch, and those at which the cable sinks, shape (3, ...).
+            side: the limit to take at a jump.
+        """
+        parts = self._tables(np.asarray(t, dtype=float))
+        if self._ramp > 0.0:
+            fade = signals.fade(np.asarray(t, dtype=float), self._ramp, side)
+            parts = np.array([fade[0] * parts[0], fade[0] * parts[1] + fade[1] * parts[0]])
+        gained = sinks - speed
+        drag = self._drag * (abs(sinks[0]) * sinks[0] - abs(speed[0]) * speed[0])
+        drag_rate = 2.0 * self._drag * (abs(sinks[0]) * sinks[1] - abs(speed[0]) * speed[1])
+        return Elastic(
+            parts[0, _FOOT] + self._hung.mass * gained[1] + drag,
+            parts[0, _GRADIENT] + self._hung.line_density * gained[1],
+            parts[1, _FOOT] + self._hung.mass * gained[2] + drag_rate,
+            parts[1, _GRADIENT] + self._hung.line_density * gained[2],
+        )
+
+    def difference(self) -> Difference:
+        """How far this tension is from the quasi-static one on the longest cable, hanging still."""
+        answer, size = self._transfer(self.longest, 0.0)[0], abs(self._heave)
+        inertia = self.omega**2
+        whole = self._hung.mass + self._hung.line_density * self.longest
+
+        def rms(gain: np.ndarray) -> float:
+            return float(np.sqrt(np.sum((abs(gain) * size) ** 2) / 2.0))
+
+        half = answer.tension_at(self.longest / 2.0)[0] - (answer.top[0] + answer.end[0]) / 2.0
+        return Difference(
+            self.longest, self.period, self.shortest, rms(answer.end[0]), rms(answer.top[0]),
+            rms(inertia * self._hung.mass), rms(inertia * whole), rms(half),
+        )  # fmt: skip
+
+    def _bar(self, length: float) -> Bar:
+        return Bar(self._stiffness, self._hung.line_density, self._hung.mass, length)
+
+    def _transfer(self, length: float, speed: float) -> tuple[HeaveTransfer, float]:
+        """The bar's answer, and the rms of the ROV's velocity, m/s."""
+        bar, size = self._bar(length), abs(self._heave) * self.omega
+
+        def moving(damping: float) -> float:
+            body = heave_transfer(bar, np.array([damping]), self.omega).body[0]
+            return float(np.sqrt(np.sum((abs(body) * size) ** 2) / 2.0))
+
+        damping = linearised_damping(self._drag, speed, moving)
+        return heave_transfer(bar, np.array([damping]), self.omega), moving(damping)
+
+    def _answer(self, t: float) -> _Answer:
+        """Tension at the ROV and per metre above it, per wave, shape (2, waves), as the winch is at an instant."""
+        motion = winch.evaluate(self._law, min(t, self._duration))
+        length, speed = float(motion.length), float(motion.speed)
+        if (length, speed) not in self._answers:
+            found, moving = self._transfer(length, speed)
+            end, top = found.end[0] * self._heave, found.top[0] * self._heave
+            more = mean_drag(self._drag, speed, moving) - self._drag * abs(speed) * speed
+            self._answers[length, speed] = _Answer(-np.array([end, (top - end) / length]), more)
+        return self._answers[length, speed]
+
+    def _tables(self, t: np.ndarray) -> np.ndarray:
+        """Tension at the ROV and per metre, and their rates, shape (2, 2, ...), without the ramp."""
+        place = np.floor(t.ravel() / regular.STEP).astype(np.int64)
+        number, share = place // _STEPS, t.ravel() / regular.STEP - place
+        found = np.empty((2, 2, place.size))
+        for block in np.unique(number):
+            here = number == block
+            rows, step = self._block(int(block)), place[here] - block * _STEPS
+            for order in range(2):
+                for part in range(2):
+                    three = rows[:, part, order : order + 3]
+                    found[order, part, here] = regular.quintic(three[step], three[step + 1], share[here])
+        return found.reshape(2, 2, *t.shape)
+
+    def _block(self, number: int) -> np.ndarray:
+        """Derivatives 0 to 3 of both at the instants of a block, shape (instants, 2, 4)."""
+        if number not in self._blocks:
+            self._blocks[number] = self._tabulate(number * _EVERY)
+            if len(self._blocks) > _KEPT:
+                self._blocks.popitem(last=False)
+        return self._blocks[number]
+
+    def _tabulate(self, start: float) -> np.ndarray:
+        """``(c0 + q (c1 - c0)) e^{i w t}``, q from 0 to 1 along the block, its derivatives, less mean drag."""
+        before, after = self._answer(start), self._answer(start + _EVERY)
+        turned = np.exp(1j * self.omega * start)
+        powers = (1j * self.omega) ** _BINOMIAL[:, None]
+        steady, change = before.amplitude * turned, (after.amplitude - before.amplitude) * turned / _EVERY
+        fixed = np.einsum("tw,pw,ow->tpo", self._turns, steady, powers, optimize=True).real
+        grows = np.einsum("tw,pw,ow->tpo", self._turns, change, powers, optimize=True).real
+        past = np.arange(_STEPS + 1.0) * regular.STEP
+        fixed += past[:, None, None] * grows
+        fixed[:, :, 1:] += _BINOMIAL[1:] * grows[:, :, :-1]
+        fixed[:, _FOOT, 0] -= before.drag + (after.drag - before.drag) * past / _EVERY
+        fixed[:, _FOOT, 1] -= (after.drag - before.drag) / _EVERY
+        return fixed
+
+
+def _regular(environment: Environment) -> tuple[np.ndarray, np.ndarray]:
+    """Angular frequencies, rad/s, and complex amplitudes, m, of the heave's regular waves, shape (waves,) each."""
+    omega, amplitude = [np.zeros(0)], [np.zeros(0, dtype=complex)]
+    for term in heaving(environment):
+        if isinstance(term, Sine):
+            omega.append(np.array([term.frequency]))
+            amplitude.append(np.array([term.amplitude * np.exp(1j * (term.phase - 0.5 * np.pi))]))
+        elif isinstance(term, Waves):
+            omega.append(np.array(term.frequencies))
+            amplitude.append(np.array(term.amplitudes) * np.exp(1j * np.array(term.phases)))
+    frequencies, sizes = np.concatenate(omega), np.concatenate(amplitude)
+    moves = (frequencies > 0.0) & (abs(sizes) > 0.0)
+    return frequencies[moves], sizes[moves]
