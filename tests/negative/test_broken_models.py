@@ -70,6 +70,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "phases of RAOs in degrees": (broken_sea.table_read_in_degrees, ("sea, tables*",)),
     "the body's added mass forgotten": (broken_sea.added_mass_forgotten, ("sea, screening",)),
     "half the body in heave": (broken_sea.half_the_body, ("sea, cable*", "sea, screening")),
+    "stretch forgotten under heave": (broken_sea.stretch_forgotten, ("sea, heave in*",)),
+    "stretch that leads the heave": (broken_sea.stretch_that_leads, ("sea, heave in*",)),
     "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),
     "gravity of another planet": (
         broken_rope.gravity_of_another_planet,

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from umbilical.plant import exogenous, stretching
 from umbilical.relations import axial
 from umbilical.screening import operate, response
 from umbilical.sea import components, rao, spectrum, vessel
@@ -81,6 +82,22 @@ def half_the_body(patch: pytest.MonkeyPatch) -> None:
         patch.setattr(
             room, "heave_transfer", lambda bar, damping, omega: right(bar._replace(mass=bar.mass / 2.0), damping, omega)
         )
+
+
+def stretch_forgotten(patch: pytest.MonkeyPatch) -> None:
+    """The string's tension follows heave as if the cable did not stretch."""
+    patch.setattr(exogenous, "stretching", lambda *_: None)
+
+
+def stretch_that_leads(patch: pytest.MonkeyPatch) -> None:
+    """The bar's answer ahead of the heave by what it should be behind it."""
+    right = stretching.heave_transfer
+
+    def wrong(bar: Any, damping: np.ndarray, omega: np.ndarray) -> axial.HeaveTransfer:
+        return axial.HeaveTransfer(*(np.conj(part) for part in right(bar, damping, omega)))
+
+    patch.setattr(stretching, "heave_transfer", wrong)
+    patch.setattr(stretching, "_stretching", stretching._stretching.__wrapped__)
 
 
 def drive_that_leads(patch: pytest.MonkeyPatch) -> None:

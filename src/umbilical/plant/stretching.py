@@ -8,7 +8,8 @@ the winch's speed::
     T(s, t) = W + w s - (m + A_z + rho s) a - D E[|u| u] - c s v_z |v_z| - Re sum a_j E U'_j(s) e^{i w_j t}
 
 at both ends of the cable; between them the line through both. What is computed here is the difference to the
-quasi-static tension, which everything else that depends on heave keeps. The transfer follows length and speed of the
+quasi-static tension (inertia and drag of heave), which everything else that depends on heave keeps; it is faded in with
+the vessel. The transfer follows length and speed of the
 winch; it is worked out every :data:`_EVERY` s and linear between.
 """
 
@@ -68,7 +69,7 @@ class Difference(NamedTuple):
 
 
 class _Answer(NamedTuple):
-    """Tension at the ROV and per metre above it, of every wave, and the mean drag that waves add, N."""
+    """What stretch adds at the ROV and per metre above it, of every wave, and the mean drag that waves add, N."""
 
     amplitude: np.ndarray
     drag: float
@@ -135,22 +136,18 @@ class Stretching:
 
         Args:
             t: instants, any shape.
-            speed, sinks: speed, acceleration and jerk of the winch, and those at which the cable sinks, shape (3, ...).
+            speed, sinks: speed and acceleration of the winch, and those at which the cable sinks, shape (2, ...).
             side: the limit to take at a jump.
         """
         parts = self._tables(np.asarray(t, dtype=float))
         if self._ramp > 0.0:
             fade = signals.fade(np.asarray(t, dtype=float), self._ramp, side)
             parts = np.array([fade[0] * parts[0], fade[0] * parts[1] + fade[1] * parts[0]])
-        gained = sinks - speed
         drag = self._drag * (abs(sinks[0]) * sinks[0] - abs(speed[0]) * speed[0])
         drag_rate = 2.0 * self._drag * (abs(sinks[0]) * sinks[1] - abs(speed[0]) * speed[1])
         return Elastic(
-            parts[0, _FOOT] + self._hung.mass * gained[1] + drag,
-            parts[0, _GRADIENT] + self._hung.line_density * gained[1],
-            parts[1, _FOOT] + self._hung.mass * gained[2] + drag_rate,
-            parts[1, _GRADIENT] + self._hung.line_density * gained[2],
-        )
+            parts[0, _FOOT] + drag, parts[0, _GRADIENT], parts[1, _FOOT] + drag_rate, parts[1, _GRADIENT]
+        )  # fmt: skip
 
     def difference(self) -> Difference:
         """How far this tension is from the quasi-static one on the longest cable, hanging still."""
@@ -182,18 +179,19 @@ class Stretching:
         return heave_transfer(bar, np.array([damping]), self.omega), moving(damping)
 
     def _answer(self, t: float) -> _Answer:
-        """Tension at the ROV and per metre above it, per wave, shape (2, waves), as the winch is at an instant."""
+        """Amplitudes of shape (2, waves), as the winch is at an instant."""
         motion = winch.evaluate(self._law, min(t, self._duration))
         length, speed = float(motion.length), float(motion.speed)
         if (length, speed) not in self._answers:
             found, moving = self._transfer(length, speed)
-            end, top = found.end[0] * self._heave, found.top[0] * self._heave
+            end = (found.end[0] - self._hung.mass * self.omega**2) * self._heave
+            along = ((found.top[0] - found.end[0]) / length - self._hung.line_density * self.omega**2) * self._heave
             more = mean_drag(self._drag, speed, moving) - self._drag * abs(speed) * speed
-            self._answers[length, speed] = _Answer(-np.array([end, (top - end) / length]), more)
+            self._answers[length, speed] = _Answer(-np.array([end, along]), more)
         return self._answers[length, speed]
 
     def _tables(self, t: np.ndarray) -> np.ndarray:
-        """Tension at the ROV and per metre, and their rates, shape (2, 2, ...), without the ramp."""
+        """What stretch adds at the ROV and per metre, and the rates, shape (2, 2, ...), without the ramp."""
         place = np.floor(t.ravel() / regular.STEP).astype(np.int64)
         number, share = place // _STEPS, t.ravel() / regular.STEP - place
         found = np.empty((2, 2, place.size))

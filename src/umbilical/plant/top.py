@@ -79,7 +79,7 @@ def top_at(
     heave = signals.heave(environment, t, side)
     speed = np.array(motion[1:])
     sinks = speed - np.array(heave[1:])
-    elastic = stretching.at(np.asarray(t), speed, sinks, side) if stretching else np.zeros((4, *np.shape(t)))
+    elastic = stretching.at(np.asarray(t), speed[:2], sinks[:2], side) if stretching else np.zeros((4, *np.shape(t)))
     return Top(*motion, heave[0], *sinks, *elastic)
 
 

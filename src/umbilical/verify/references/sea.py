@@ -30,6 +30,16 @@ def pierson_moskowitz_ratios() -> tuple[float, float]:
     return float(mean), float(crossing)
 
 
+def jonswap_ratios(gamma: float) -> tuple[float, float]:
+    """T1/Tp and Tz/Tp of JONSWAP by a fine trapezoidal rule in log(w/wp), and the tail's closed form."""
+    log = np.linspace(np.log(0.2), np.log(50.0), 2_000_001)
+    x = np.exp(log)
+    width = np.where(x <= 1.0, 0.07, 0.09)
+    shape = x**-5 * np.exp(-1.25 * x**-4) * gamma ** np.exp(-(((x - 1.0) / width) ** 2) / 2.0)
+    moment = [np.trapezoid(shape * x ** (n + 1), log) + 50.0 ** (n - 4) / (4 - n) for n in range(3)]
+    return float(moment[0] / moment[1]), float(np.sqrt(moment[0] / moment[2]))
+
+
 class Hanging(NamedTuple):
     """A cable as masses on springs with a body at its end; SI units."""
 
@@ -56,6 +66,18 @@ def heave_of_masses(cable: Hanging, damping: float, omega: np.ndarray) -> tuple[
         if number < cable.masses - 1:
             pull = pull + omega**2 * each * place
     return 1.0 / place, end / place, (pull + omega**2 * each / 2.0 * place) / place
+
+
+def heave_with_drag(
+    cable: Hanging, drag: float, omega: np.ndarray, amplitude: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The same with quadratic drag, linearised for sines of the sheave, m, by fixed-point iteration."""
+    velocity = 0.5
+    for _ in range(200):
+        found = heave_of_masses(cable, drag * np.sqrt(8.0 / np.pi) * velocity, omega)
+        moving = np.sqrt(np.sum(abs(omega * found[0] * amplitude) ** 2) / 2.0)
+        velocity = 0.5 * (velocity + float(moving))
+    return found
 
 
 def ship_heave(omega: np.ndarray, heading: float, forward: float) -> np.ndarray:
