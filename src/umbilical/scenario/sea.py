@@ -53,7 +53,7 @@ class SeaState(Record):
     )
     heave: bool = Field(
         default=False,
-        description="let heave into the tension of the string (cable.axial_stiffness says how it stretches); the rope has it",
+        description="let heave into the tension of the string, stretched by cable.axial_stiffness; the rope has it",
     )
     orbital_below: float | None = measured(
         "m", "depth under the surface from which waves move the water; left out, they do not", None, ge=0.0, le=50.0,
