@@ -233,6 +233,7 @@ STATES: dict[str, Quantity] = {
     "slip":                    Quantity("m/s", r"\rho_a (v - \zeta')/M", "how fast the mass that moves across lags behind the sliding cable"),
     "current_factor":          Quantity("1", "", "factor of the current's profile"),
     "current_rate":            Quantity("1/s", "", "rate of that factor"),
+    "wave_place":              Quantity("1", "", "instant in the table of the waves' orbital motion"),
     "current_length":          Quantity("m", "l", "length for which the current at the nodes was last worked out"),
     "current_heave":           Quantity("m", r"\zeta", "heave for which it was"),
     "work_body_current":       Quantity("J", "", "what the current gives to the ROV"),

@@ -1,4 +1,4 @@
-"""Orbital motion from its tables against the sum of Airy's waves."""
+"""Orbital motion from its tables against the sum of Airy's waves, and a string that feels it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.plant.test_water import at_sea as shallow
+from umbilical import Scenario, simulate
+from umbilical.engine.setup import set_up
+from umbilical.engine.stepping import enter_step
+from umbilical.errors import ScenarioError
+from umbilical.library.admit import admit
 from umbilical.plant import orbital
+from umbilical.plant.exogenous import Outside, Steps
+from umbilical.plant.layout import positions, to_nodal
 from umbilical.plant.seaway import waves_of
 from umbilical.plant.signals import fade
 from umbilical.scenario.document import freeze
@@ -73,3 +81,38 @@ def test_stretches_meet() -> None:
 
 def test_a_calm_sea_moves_nothing() -> None:
     assert not read(at_sea(systems=[SYSTEM | {"significant_height": 0.0}]), 20.0, 80.0).any()
+
+
+def string(**changes: Any) -> Scenario:
+    """A string in water that the waves of :func:`at_sea` move."""
+    sea = at_sea(**changes).model_dump(mode="json")["sea"]
+    return shallow(**{"environment.sea": sea, "environment.vessel_ramp": 30.0, "duration": 120.0, "grid.elements": 6})
+
+
+def test_a_string_feels_it_at_its_nodes() -> None:
+    scenario, t = string(), 71.3
+    setup = set_up(scenario)
+    plant, state = setup.world.plant, setup.world.state
+    enter_step(plant, state, Outside(scenario).sample(Steps(np.array([t]), np.array([t + 0.01]), np.zeros(0))), 0)
+    depths, flow = 100.0 * positions(6)[:20], state.water
+    still = np.array([np.interp(depth, [0.0, 200.0], [0.5, 0.1]) for depth in depths])
+    waves = np.array([exact(scenario.environment, depth, t)[:, 0] * (depth > 14.6) for depth in depths])
+    np.testing.assert_allclose(to_nodal(flow.speed[None])[0, :20], still + waves[:, 0], atol=0.006)
+    np.testing.assert_allclose(to_nodal(flow.rate[None])[0, :20], waves[:, 1], atol=0.006)
+
+
+def test_the_balance_of_powers_closes_in_waves() -> None:
+    run = simulate(string().replace({"duration": 45.0, "grid.elements": 24}))
+    assert run.metrics["energy_balance_residual"] < 2e-4
+    calm = simulate(string(orbital_below=None).replace({"duration": 45.0, "grid.elements": 24}))
+    assert abs(run["displacement"].values - calm["displacement"].values).max() > 5e-3
+
+
+def test_waves_need_water_and_a_grid_that_sees_them() -> None:
+    dry = {"environment.water": None, "cable.water": None, "payload.water": None}
+    with pytest.raises(ScenarioError, match="drag and moved mass need water"):
+        admit(string().replace(dry))
+    with pytest.raises(ScenarioError, match="no rope feels"):
+        admit(string().replace({"model": "rope", **dry}))
+    coarse = string().replace({"winch.length": 3000.0, "environment.water.current": None})
+    assert "63 grid.elements would see it" in " ".join(map(str, admit(coarse)))

@@ -22,6 +22,7 @@ from umbilical.plant.cable import (
     make_cable,
     march,
 )
+from umbilical.plant.current import Flow, make_flow
 from umbilical.plant.exogenous import END, START, Exogenous, Inputs
 from umbilical.plant.forces import given, tension
 from umbilical.plant.forces.force import add_power
@@ -98,7 +99,7 @@ class PlantState(NamedTuple):
         faces: flux where elements meet, shape (2, 2 n).
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
-        water: the current's profile at the nodes, m/s, shape (5, n).
+        water: what it does at the nodes.
         power, work: terms of the power balance along the cable, W, and their integrals, J.
     """
 
@@ -108,7 +109,7 @@ class PlantState(NamedTuple):
     faces: np.ndarray
     starts: np.ndarray
     loads: np.ndarray
-    water: np.ndarray
+    water: Flow
     power: Along
     work: Along
 
@@ -129,7 +130,7 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         faces=np.zeros((2, 2 * elements)),
         starts=np.zeros(elements + 1),
         loads=np.zeros(loads),
-        water=np.zeros((5, elements)),
+        water=make_flow(elements),
         power=make_along(elements),
         work=make_along(elements),
     )
@@ -166,7 +167,7 @@ def take_inputs(plant: Plant, state: PlantState, inputs: Inputs, i: int, column:
         state.loads[k] = inputs.loads[i, k, column]
     for k in range(state.motors.size):
         state.motors[k].outside = inputs.motors[i, k, column]
-    flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside)
+    flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside, inputs.orbits)
 
 
 @glue
@@ -217,7 +218,7 @@ def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
     evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, moment)
     along_cable(plant.forces, cable, blocks[PRESENT], rate, state.loads, state.water, moment, outside)
     pull = tension_at(0.0, moment.net, moment.hung) * ends.tip_slope
-    ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water, outside) - pull) / cable.payload_inertia
+    ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water) - pull) / cable.payload_inertia
     old, older = (newest + 2) % 3, (newest + 1) % 3
     loss = moment.speed / moment.length + plant.forces.cable_decay
     march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)

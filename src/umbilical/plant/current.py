@@ -7,7 +7,30 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.plant.orbital import LEVELS, RATE, VELOCITY, Levels, at_level, find_level
 from umbilical.scenario.environment import Environment
+
+
+class Flow(NamedTuple):
+    """The water at the nodes of the cable, shape (5, n) each, and the waves' motion at their levels.
+
+    Attributes:
+        profile: of the current, m/s.
+        speed: of the water, m/s: the profile times its factor of time, and the waves'.
+        rate: of that, m/s2.
+        orbit: speed and rate of the waves' motion, shape (2, 1, levels).
+    """
+
+    profile: np.ndarray
+    speed: np.ndarray
+    rate: np.ndarray
+    orbit: np.ndarray
+
+
+def make_flow(elements: int) -> Flow:
+    """Water at rest."""
+    at_nodes = np.zeros((3, 5, elements))
+    return Flow(at_nodes[0], at_nodes[1], at_nodes[2], np.zeros((2, 1, LEVELS)))
 
 
 class Profile(NamedTuple):
@@ -49,6 +72,28 @@ def fill(profile: Profile, above: np.ndarray, out: np.ndarray, length: float, he
             start, span, slope = profile.starts[k], profile.spans[k], profile.slopes[k]
             for e in range(elements):
                 row[e] += slope * min(max(length * (1.0 - share[e]) - heave - start, 0.0), span)
+
+
+@kernel
+def vary(flow: Flow, factor: float, change: float) -> None:
+    """Speed and rate of the profile times a factor of time, and its ``change``, 1/s."""
+    for j in range(5):
+        profile, speed, rate = flow.profile[j], flow.speed[j], flow.rate[j]
+        for e in range(profile.size):
+            speed[e] = factor * profile[e]
+            rate[e] = change * profile[e]
+
+
+@kernel
+def add_waves(levels: Levels, above: np.ndarray, flow: Flow, length: float, heave: float) -> None:
+    """Add what the waves do, as ``flow.orbit`` has it; ``above`` as in :func:`fill`."""
+    swift, quick = flow.orbit[VELOCITY, 0], flow.orbit[RATE, 0]
+    for j in range(5):
+        for e in range(above.shape[1]):
+            level = find_level(levels, length * (1.0 - above[j, e]) - heave)
+            if level >= 0.0:
+                flow.speed[j, e] += at_level(swift, level)
+                flow.rate[j, e] += at_level(quick, level)
 
 
 def speeds_at(environment: Environment, depths: np.ndarray) -> np.ndarray:

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.frames import Frame, real
-from umbilical.plant import faults, signals, winch
+from umbilical.plant import faults, orbital, signals, winch
 from umbilical.plant.layout import positions
 from umbilical.plant.seaway import heaving
 from umbilical.plant.stretching import Stretching, stretching
@@ -65,6 +65,7 @@ class Exogenous(Frame):
     elastic_gradient_rate = real()
     current_factor = real()
     current_rate = real()
+    wave_place = real()
 
 
 class MotorExogenous(Frame):
@@ -95,6 +96,7 @@ class Inputs(NamedTuple):
         world: records of cable and ROV at the step's start and end, shape (steps, 2).
         motors: records of each motor at the step's start, end and middle, shape (steps, motors, 3).
         loads: signals of the loads along the cable, N/m, at the step's start and end, shape (steps, loads, 2).
+        orbits: motion of the waves at instants of the stretch and their levels, as ``plant/orbital.py`` tabulates it.
     """
 
     dt: Array
@@ -102,6 +104,7 @@ class Inputs(NamedTuple):
     world: Exogenous
     motors: MotorExogenous
     loads: Array
+    orbits: Array
 
 
 def published_jumps(scenario: Scenario) -> tuple[float, ...]:
@@ -181,6 +184,7 @@ class Outside:
         environment = scenario.environment
         self._sea = environment if heaving(environment) else None
         self._stretching = stretching(scenario.winch, environment, scenario.cable, scenario.payload, scenario.duration)
+        self._orbits: Any = orbital.orbits(environment, 1) if orbital.moves_the_water(environment) else None
         sinks = SINKING if heaving(environment) or environment.water else ()
         self._wanted = WINCH + sinks + (STRETCHING if self._stretching else ())
 
@@ -205,7 +209,14 @@ class Outside:
         for k, load in enumerate(environment.cable_load):
             _fill_signal(inputs.loads[:, k].T, load.signal, steps, middle=False)
         self._sample_motors(steps, inputs.motors)
-        return inputs
+        return inputs if self._orbits is None else self._with_waves(steps, inputs)
+
+    def _with_waves(self, steps: Steps, inputs: Inputs) -> Inputs:
+        """The same with the waves' orbital motion, and where in its rows each step begins and ends."""
+        first, rows = self._orbits.rows(float(steps.start[0]), float(steps.end[-1]))
+        place = inputs.world["wave_place"].T
+        place[START], place[END] = steps.start / orbital.STEP - first, steps.end / orbital.STEP - first
+        return inputs._replace(orbits=rows)
 
     def _sample_motors(self, steps: Steps, out: MotorExogenous) -> None:
         for k, motor in enumerate(self._scenario.motors):
@@ -228,7 +239,7 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
     loads = np.zeros((steps, len(scenario.environment.cable_load), 2))
     world = Exogenous.many(steps, 2)
     world["current_factor"] = 1.0
-    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), world, motors, loads)
+    return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), world, motors, loads, orbital.AT_REST)
 
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from functools import lru_cache
-from math import log1p
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import glue, kernel
+from umbilical.compile import kernel
 from umbilical.plant import signals
 from umbilical.plant.seaway import waves_of
 from umbilical.scenario.environment import Environment
@@ -29,36 +28,39 @@ ALONG, ACROSS, UP = range(3)
 """Directions: in the cable's plane, to the left of it, and up."""
 VELOCITY, RATE = range(2)
 _BLOCK, _KEPT = 512, 8
-_LEFT, _CLOSE = 0.01, 5.0
+_LEFT, _CLOSER = 0.01, 10.0
 
 
 class Levels(NamedTuple):
-    """Depths of the table: ``z = first + close (e^{i/per} - 1)``.
+    """Depths of the table: level i is ``close i/(places - i)`` below the first, closer above than below.
 
     Attributes:
         above: of the sheave over the surface, m: depths are asked below the sheave's mean height.
         first: depth of the uppermost level below the surface, m; infinite where waves do not move the water.
-        close: m; levels are equally far apart above it, by equal factors below.
-        per: levels for a factor of e.
+        close: m; near the first, levels are ``close/places`` apart.
+        places: which the levels fill :data:`LEVELS`.
+        deepest: of them, m below the surface.
     """
 
     above: float
     first: float
     close: float
-    per: float
+    places: float
+    deepest: float
 
 
-NONE = Levels(0.0, np.inf, _CLOSE, 1.0)
+AT_REST = np.zeros((2, 2, 1, LEVELS))
+"""Rows of water that no waves move."""
+NONE = Levels(0.0, np.inf, 1.0, 2.0 * LEVELS, 0.0)
 
 
-@glue
+@kernel
 def find_level(levels: Levels, depth: float) -> float:
     """Place among the levels of a depth below the sheave's mean height, m; negative where the water is at rest."""
-    below = depth - levels.above - levels.first
-    if below < 0.0:
+    under = depth - levels.above
+    if under < levels.first or under >= levels.deepest:
         return -1.0
-    found = levels.per * log1p(below / levels.close)
-    return found if found < LEVELS - 1 else -1.0
+    return min(levels.places * (under - levels.first) / (under - levels.first + levels.close), LEVELS - 1.000001)
 
 
 @kernel
@@ -67,7 +69,7 @@ def look_at_waves(rows: np.ndarray, place: float, now: np.ndarray) -> None:
 
     ``rows`` are of a stretch, shape (instants, 2, directions, levels); ``place`` counts :data:`STEP` from the first.
     """
-    k = min(int(place), rows.shape[0] - 2)
+    k = int(place)
     q = place - k
     p = 1.0 - q
     value, slope = q * q * (3.0 - 2.0 * q), 6.0 * q * p / STEP
@@ -82,7 +84,7 @@ def look_at_waves(rows: np.ndarray, place: float, now: np.ndarray) -> None:
             rate[j] = slope * step + left_rate * a[j] + right_rate * b[j]
 
 
-@glue
+@kernel
 def at_level(row: np.ndarray, level: float) -> float:
     """A row of levels at a place that :func:`find_level` gave; 0 where the water is at rest."""
     if level < 0.0:
@@ -94,6 +96,16 @@ def at_level(row: np.ndarray, level: float) -> float:
 def moves_the_water(environment: Environment) -> bool:
     """Whether the waves of an environment move the water around the cable."""
     return environment.sea is not None and environment.sea.orbital_below is not None
+
+
+def levels_of(environment: Environment) -> Levels:
+    """Depths at which the waves of an environment move the water."""
+    return orbits(environment, 1).levels if moves_the_water(environment) else NONE
+
+
+def fastest(environment: Environment) -> float:
+    """Four times the root mean square of the speed at the uppermost level, m/s; 0 where waves move no water."""
+    return orbits(environment, 1).fastest if moves_the_water(environment) else 0.0
 
 
 def orbits(environment: Environment, directions: int = 3) -> Orbits:
@@ -122,6 +134,7 @@ class Orbits:
         phase = phase - k * (forward * np.cos(heading) + port * np.sin(heading))
         size = np.concatenate([np.zeros(0), *(wave.amplitude for _, wave in waves)]) * self._omega
         self.levels = _levels(up, sea.orbital_below, k, size)
+        self.fastest = 4.0 * float(np.sqrt(np.sum((size * np.exp(-k * sea.orbital_below)) ** 2) / 2.0))
         speed = size * np.exp(1j * phase)
         parts = (speed * np.cos(heading - sea.plane), speed * np.sin(heading - sea.plane), 1j * speed)
         decay = np.exp(-np.outer(k, depths_of(self.levels)))
@@ -137,7 +150,7 @@ class Orbits:
         Returns:
             Its number, and an array of the shape (instants, 2, directions, levels), m/s and m/s2.
         """
-        first, last = int(begin // STEP), int(end // STEP) + 2
+        first, last = int(np.floor(begin / STEP)), int(np.floor(end / STEP)) + 2
         numbers = range(first // _BLOCK, (last - 1) // _BLOCK + 1)
         found = np.concatenate([self._block(number) for number in numbers])
         cut = first - numbers[0] * _BLOCK
@@ -170,10 +183,12 @@ def _levels(above: float, first: float, k: np.ndarray, size: np.ndarray) -> Leve
         return NONE
     depth = first + np.linspace(0.0, 6.0 / k.min(), 2001)
     left = np.sqrt(np.exp(-2.0 * np.outer(depth, k)) @ size**2)
-    deepest = depth[np.argmax(left <= _LEFT * left[0])]
-    return Levels(above, first, _CLOSE, (LEVELS - 1) / log1p((deepest - first) / _CLOSE))
+    deepest = float(depth[np.argmax(left <= _LEFT * left[0])])
+    close = (deepest - first) / _CLOSER
+    return Levels(above, first, close, (LEVELS - 1) * (1.0 + 1.0 / _CLOSER), deepest)
 
 
 def depths_of(levels: Levels) -> np.ndarray:
     """Depths of the levels below the surface, m, shape (levels,)."""
-    return levels.first + levels.close * np.expm1(np.arange(LEVELS) / levels.per)
+    place = np.arange(float(LEVELS))
+    return levels.first + levels.close * place / (levels.places - place)

@@ -21,8 +21,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.plant import regular, signals, winch
+from umbilical.plant import regular, signals
 from umbilical.plant.seaway import heaving
+from umbilical.plant.top import top_at
 from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer, linearised_damping, mean_drag
 from umbilical.relations.tension import axial_drag_of, hanging_of
 from umbilical.scenario.environment import Environment
@@ -34,7 +35,7 @@ NEAR = 2.5
 """Periods of waves over T1 from which on a cable may be taken not to stretch."""
 SHORT = 0.01
 """Share of the acceleration's energy that the shortest waves may hold before they count."""
-_STEPS, _KEPT, _INSTANTS = 128, 64, 2001
+_STEPS, _KEPT, _INSTANTS = 128, 1024, 2001
 _EVERY = _STEPS * regular.STEP
 _FOOT, _GRADIENT = range(2)
 _BINOMIAL = np.arange(4.0)
@@ -114,8 +115,9 @@ class Stretching:
         self._drag = axial_drag_of(cable, payload, environment).body
         self._stiffness = float(cable.axial_stiffness or 0.0)
         self.omega, self._heave = _regular(environment)
-        self._turns = np.exp(1j * np.outer(np.arange(_STEPS + 1) * regular.STEP, self.omega))
-        self.longest = float(winch.evaluate(law, np.linspace(0.0, duration, _INSTANTS)).length.max())
+        turns = np.outer(np.arange(_STEPS + 1) * regular.STEP, self.omega)
+        self._turns = np.concatenate([np.cos(turns), -np.sin(turns)], axis=1)
+        self.longest = float(top_at(law, np.linspace(0.0, duration, _INSTANTS)).length.max())
         self._answers: dict[tuple[float, float], _Answer] = {}
         self._blocks: OrderedDict[int, np.ndarray] = OrderedDict()
 
@@ -180,7 +182,7 @@ class Stretching:
 
     def _answer(self, t: float) -> _Answer:
         """Amplitudes of shape (2, waves), as the winch is at an instant."""
-        motion = winch.evaluate(self._law, min(t, self._duration))
+        motion = top_at(self._law, min(t, self._duration))
         length, speed = float(motion.length), float(motion.speed)
         if (length, speed) not in self._answers:
             found, moving = self._transfer(length, speed)
@@ -193,16 +195,15 @@ class Stretching:
     def _tables(self, t: np.ndarray) -> np.ndarray:
         """What stretch adds at the ROV and per metre, and the rates, shape (2, 2, ...), without the ramp."""
         place = np.floor(t.ravel() / regular.STEP).astype(np.int64)
-        number, share = place // _STEPS, t.ravel() / regular.STEP - place
-        found = np.empty((2, 2, place.size))
-        for block in np.unique(number):
-            here = number == block
-            rows, step = self._block(int(block)), place[here] - block * _STEPS
-            for order in range(2):
-                for part in range(2):
-                    three = rows[:, part, order : order + 3]
-                    found[order, part, here] = regular.quintic(three[step], three[step + 1], share[here])
-        return found.reshape(2, 2, *t.shape)
+        share, number = t.ravel() / regular.STEP - place, place // _STEPS
+        known, which = np.unique(number, return_inverse=True)
+        rows, step = np.array([self._block(int(k)) for k in known]), place - number * _STEPS
+        left, right = rows[which, step], rows[which, step + 1]
+        found = [
+            [regular.quintic(left[:, part, n : n + 3], right[:, part, n : n + 3], share) for part in range(2)]
+            for n in range(2)
+        ]
+        return np.reshape(found, (2, 2, *t.shape))
 
     def _block(self, number: int) -> np.ndarray:
         """Derivatives 0 to 3 of both at the instants of a block, shape (instants, 2, 4)."""
@@ -216,16 +217,28 @@ class Stretching:
         """``(c0 + q (c1 - c0)) e^{i w t}``, q from 0 to 1 along the block, its derivatives, less mean drag."""
         before, after = self._answer(start), self._answer(start + _EVERY)
         turned = np.exp(1j * self.omega * start)
-        powers = (1j * self.omega) ** _BINOMIAL[:, None]
-        steady, change = before.amplitude * turned, (after.amplitude - before.amplitude) * turned / _EVERY
-        fixed = np.einsum("tw,pw,ow->tpo", self._turns, steady, powers, optimize=True).real
-        grows = np.einsum("tw,pw,ow->tpo", self._turns, change, powers, optimize=True).real
+        fixed = self._sums(before.amplitude * turned)
+        if after is before:
+            return fixed - _constant(before.drag)
+        grows = self._sums((after.amplitude - before.amplitude) * turned / _EVERY)
         past = np.arange(_STEPS + 1.0) * regular.STEP
         fixed += past[:, None, None] * grows
         fixed[:, :, 1:] += _BINOMIAL[1:] * grows[:, :, :-1]
         fixed[:, _FOOT, 0] -= before.drag + (after.drag - before.drag) * past / _EVERY
         fixed[:, _FOOT, 1] -= (after.drag - before.drag) / _EVERY
         return fixed
+
+    def _sums(self, amplitude: np.ndarray) -> np.ndarray:
+        """Sums over the waves of amplitudes (2, waves), and their derivatives, shape (instants, 2, 4)."""
+        orders = (amplitude[:, None, :] * (1j * self.omega) ** _BINOMIAL[:, None]).reshape(8, -1).T
+        return (self._turns @ np.concatenate([orders.real, orders.imag])).reshape(-1, 2, 4)
+
+
+def _constant(drag: float) -> np.ndarray:
+    """The mean drag, which has no derivatives, shape (2, 4)."""
+    found = np.zeros((2, 4))
+    found[_FOOT, 0] = drag
+    return found
 
 
 def _regular(environment: Environment) -> tuple[np.ndarray, np.ndarray]:

@@ -8,17 +8,19 @@ gravity and its relative jerk are made here.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from umbilical.plant import seaway, signals, winch
 from umbilical.plant.signals import Array, Side
-from umbilical.plant.stretching import Stretching
 from umbilical.relations import tension
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.winch import Winch
+
+if TYPE_CHECKING:
+    from umbilical.plant.stretching import Stretching
 
 
 class Top(NamedTuple):

@@ -7,12 +7,16 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.errors import Problem
+from umbilical.plant.checks.timeline import tables_of_the_winch
 from umbilical.plant.orbital import moves_the_water
 from umbilical.plant.seaway import directions_of, spectrum_of, waves_of
+from umbilical.plant.top import top_at
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
+from umbilical.scenario.scenario import Grid
 from umbilical.scenario.ship import RaoShip
 from umbilical.scenario.signals import Waves
+from umbilical.scenario.winch import Winch
 from umbilical.sea.rao import RaoVessel, vessel_of
 from umbilical.sea.rao_checks import sea_problems, table_problems, told
 from umbilical.sea.waves import wave_number
@@ -21,6 +25,8 @@ STEEPEST = 1.0 / 7.0
 """Hs over the deep-water wavelength of the peak period."""
 _PERIODS = ("peak_period", "zero_crossing_period", "mean_period")
 _FASTEST_WAVE = 30.0
+_UNSEEN = 3.0
+"""Lengths of an element over that on which waves fade."""
 
 
 def systems(environment: Environment) -> Iterator[Finding]:
@@ -78,11 +84,27 @@ def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
         )
 
 
-def orbital_motion(environment: Environment) -> Iterator[Finding]:
-    """No model of the cable lets waves move its water yet."""
-    if moves_the_water(environment):
-        yield Problem("environment.sea.orbital_below", "given", "left out",
-                      "no cable feels the orbital motion of waves yet", "leave it out")  # fmt: skip
+def orbital_motion(
+    environment: Environment, winch: Winch, duration: float, grid: Grid, model: str
+) -> Iterator[Finding]:
+    """Waves that move the water have water to move, and a grid that sees how it fades with depth."""
+    if (sea := environment.sea) is None or not moves_the_water(environment) or not sound(environment):
+        return
+    key = "environment.sea.orbital_below"
+    if model == "rope":
+        yield Problem(key, "given", 'left out where model = "rope"', "no rope feels the orbital motion of waves yet",
+                      "leave it out")  # fmt: skip
+    elif environment.water is None:
+        yield Problem(key, "given", "together with environment.water", "drag and moved mass need water",
+                      "[environment.water], [cable.water], [payload.water]")  # fmt: skip
+    elif sea.systems and not any(True for _ in tables_of_the_winch(winch, duration)):
+        peak = max(float(wave_number(2.0 * np.pi / spectrum_of(system).peak_period, environment.gravity))
+                   for system in sea.systems)  # fmt: skip
+        element = float(top_at(winch, np.linspace(0.0, duration, 101)).length.max()) / grid.elements
+        if element > _UNSEEN / peak:
+            yield Notice(key, f"the water's motion fades over {1.0 / peak:.3g} m and an element is {element:.3g} m "
+                         f"long: more than {int(np.ceil(element * grid.elements * peak / _UNSEEN))} grid.elements "
+                         "would see it")  # fmt: skip
 
 
 def regular_waves(environment: Environment) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""What a current that changes with time does beside its drag: ``(rho_w A_c + rho_a) u_t`` on a metre of cable and
+"""What water that moves ever faster does beside its drag: ``(rho_w A_c + rho_a) u_t`` on a metre of cable and
 ``(A_h + W_FK) u_t`` on the ROV, Froude-Krylov force and added mass. Its work holds what drag gets from the current too.
 """
 
@@ -29,12 +29,12 @@ def make(scenario: Scenario) -> Moved:
 
 
 @kernel
-def add(moved: Moved, inertia: float, rate: np.ndarray, water: np.ndarray, change: float) -> None:
-    """Add the acceleration to the rates of a block; ``change`` times ``water``, shape (5, n), is u_t, m/s2."""
-    n, factor = rate.shape[1] // 2, moved.line * change / inertia
+def add(moved: Moved, inertia: float, rate: np.ndarray, change: np.ndarray) -> None:
+    """Add the acceleration to the rates of a block; ``change``, shape (5, n), is u_t, m/s2."""
+    n, factor = rate.shape[1] // 2, moved.line / inertia
     for j in range(5):
         for e in range(n):
-            rate[j, n + e] += factor * water[j, e]
+            rate[j, n + e] += factor * change[j, e]
 
 
 @kernel
@@ -46,14 +46,14 @@ def begin(power: np.ndarray, work: np.ndarray, half: float) -> None:
 
 
 @kernel
-def give(moved: Moved, x: np.ndarray, power: np.ndarray, water: np.ndarray, change: float, length: float) -> None:
+def give(moved: Moved, x: np.ndarray, power: np.ndarray, change: np.ndarray, length: float) -> None:
     """``int (rho_w A_c + rho_a) u_t Wb`` of every element, W, on top of its new power."""
     n = power.size
-    scale = moved.line * change * length / (2.0 * n)
+    scale = moved.line * length / (2.0 * n)
     for j in range(5):
         weight = scale * (W0 if j == 0 or j == 4 else W1 if j == 1 or j == 3 else W2)
         for e in range(n):
-            power[e] += weight * water[j, e] * x[j, n + e]
+            power[e] += weight * change[j, e] * x[j, n + e]
 
 
 @kernel

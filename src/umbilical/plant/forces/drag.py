@@ -39,24 +39,24 @@ def make(scenario: Scenario) -> Drag:
 
 @kernel
 def add(
-    drag: Drag, inertia: float, x: np.ndarray, rate: np.ndarray, water: np.ndarray, factor: float, length: float,
-    sinks: float, slip: float,
+    drag: Drag, inertia: float, x: np.ndarray, rate: np.ndarray, water: np.ndarray, length: float, sinks: float,
+    slip: float,
 ) -> None:  # fmt: skip
-    """Add f_n/M to the rates of a block; ``factor`` times ``water``, shape (5, n), is the current, m/s."""
+    """Add f_n/M to the rates of a block; ``water``, shape (5, n), is the speed of the water, m/s."""
     n = rate.shape[1] // 2
     normal, along = drag.normal / inertia, drag.tangential * abs(sinks) * sinks / (inertia * length)
     slides = (sinks - slip) / length
     for j in range(5):
         slope, velocity, flow, out = x[j, :n], x[j, n:], water[j], rate[j, n:]
         for e in range(n):
-            relative = factor * flow[e] - velocity[e] + slides * slope[e]
+            relative = flow[e] - velocity[e] + slides * slope[e]
             out[e] += normal * abs(relative) * relative - along * slope[e]
 
 
 @kernel
 def book(
     drag: Drag, x: np.ndarray, power: np.ndarray, work: np.ndarray, given: np.ndarray, water: np.ndarray,
-    half: float, factor: float, length: float, sinks: float, slip: float,
+    half: float, length: float, sinks: float, slip: float,
 ) -> None:  # fmt: skip
     """``int f_n (Wb - u)`` of every element, W, as its new power, its work over ``half`` the step; ``given``: f_n u."""
     n = power.size
@@ -69,7 +69,7 @@ def book(
         weight = scale * (W0 if j == 0 or j == 4 else W1 if j == 1 or j == 3 else W2)
         slope, velocity, flow = x[j, :n], x[j, n:], water[j]
         for e in range(n):
-            current = factor * flow[e]
+            current = flow[e]
             relative = current - velocity[e] + slides * slope[e]
             force = weight * (drag.normal * abs(relative) * relative - along * slope[e])
             power[e] += force * (velocity[e] - current)

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.plant import orbital
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding
 from umbilical.scenario.scenario import Scenario
@@ -80,6 +81,6 @@ def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
 
 
 def fastest_current(environment: Environment) -> float:
-    """Largest speed of the current's profile, m/s; how it varies is not in it."""
+    """Largest speed of the current's profile and of the waves' motion, m/s; how the former varies is not in it."""
     current = environment.water.current if environment.water else None
-    return max(map(abs, current.speeds)) if current else 0.0
+    return (max(map(abs, current.speeds)) if current else 0.0) + orbital.fastest(environment)

@@ -24,7 +24,7 @@ from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, real
 from umbilical.plant import current as profile_of_current
 from umbilical.plant.cable import Cable, Ends, Moment
-from umbilical.plant.current import Profile, make_profile
+from umbilical.plant.current import Flow, Profile, make_profile
 from umbilical.plant.exogenous import Exogenous, profiles
 from umbilical.plant.forces import (
     added_mass,
@@ -44,6 +44,7 @@ from umbilical.plant.forces.current import Moved
 from umbilical.plant.forces.drag import Drag
 from umbilical.plant.forces.force import Decay, OperatingPoint
 from umbilical.plant.layout import to_elements
+from umbilical.plant.orbital import Levels, levels_of, look_at_waves
 from umbilical.plant.seaway import heaving
 from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.environment import Environment
@@ -82,6 +83,7 @@ class Forces(NamedTuple):
         profiles: of the loads along the cable, shape (loads, 5, n).
         wet: whether there is water, or the sheave heaves.
         drag, body_drag, moved, current: of the water.
+        waves: levels of their orbital motion.
     """
 
     cable_damping: float
@@ -93,6 +95,7 @@ class Forces(NamedTuple):
     body_drag: BodyDrag
     moved: Moved
     current: Profile
+    waves: Levels
 
 
 class EndWorks(Frame):
@@ -153,6 +156,7 @@ def make_forces(scenario: Scenario) -> Forces:
         body_drag.make(scenario),
         current.make(scenario),
         make_profile(scenario.environment),
+        levels_of(scenario.environment),
     )
 
 
@@ -163,12 +167,18 @@ def make_along(elements: int) -> Along:
 
 
 @glue
-def flow_past(forces: Forces, cable: Cable, ends: Ends, water: np.ndarray, outside: Exogenous) -> None:
-    """The current's profile at the nodes, shape (5, n), as deep as they are now; worked out where that has changed."""
+def flow_past(forces: Forces, cable: Cable, ends: Ends, water: Flow, outside: Exogenous, orbits: np.ndarray) -> None:
+    """The water at the nodes, as deep as they are now; the current's profile is worked out where that has changed."""
     length, heave = outside.length, outside.heave
+    waves = forces.waves.deepest > 0.0
     if forces.current.starts.size > 0 and (length != ends.current_length or heave != ends.current_heave):
-        profile_of_current.fill(forces.current, cable.above, water, length, heave)
+        profile_of_current.fill(forces.current, cable.above, water.profile, length, heave)
         ends.current_length, ends.current_heave = length, heave
+    if waves or forces.current.starts.size > 0:
+        profile_of_current.vary(water, outside.current_factor, outside.current_rate)
+    if waves:
+        look_at_waves(orbits, outside.wave_place, water.orbit)
+        profile_of_current.add_waves(forces.waves, cable.above, water, length, heave)
 
 
 @glue
@@ -178,7 +188,7 @@ def along_cable(
     x: np.ndarray,
     rate: np.ndarray,
     loads: np.ndarray,
-    water: np.ndarray,
+    water: Flow,
     moment: Moment,
     outside: Exogenous,
 ) -> None:
@@ -189,19 +199,19 @@ def along_cable(
     if slip != 0.0 and forces.cable_decay != 0.0:
         cable_damping.add_sliding(x, rate, -forces.cable_decay * slip / length)
     if forces.drag.acts:
-        drag.add(forces.drag, inertia, x, rate, water, outside.current_factor, length, outside.sink_speed, slip)
-    if outside.current_rate != 0.0:
-        current.add(forces.moved, inertia, rate, water, outside.current_rate)
+        drag.add(forces.drag, inertia, x, rate, water.speed, length, outside.sink_speed, slip)
+    if outside.current_rate != 0.0 or forces.waves.deepest > 0.0:
+        current.add(forces.moved, inertia, rate, water.rate)
 
 
 @glue
-def on_payload(forces: Forces, ends: Ends, water: np.ndarray, outside: Exogenous) -> float:
+def on_payload(forces: Forces, ends: Ends, water: Flow) -> float:
     """Force on the ROV, N, besides the cable's pull and what pushes it by impulse."""
     found = payload_damping.force(forces.payload_damping, ends.tip_velocity)
     if forces.wet:
-        there = water[4, water.shape[1] - 1]
-        found += body_drag.force(forces.body_drag, outside.current_factor * there - ends.tip_velocity)
-        found += forces.moved.body * outside.current_rate * there
+        last = water.speed.shape[1] - 1
+        found += body_drag.force(forces.body_drag, water.speed[4, last] - ends.tip_velocity)
+        found += forces.moved.body * water.rate[4, last]
     return found
 
 
@@ -217,7 +227,7 @@ def book_along(
     outside: Exogenous,
     last_relative_jerk: float,
     loads: np.ndarray,
-    water: np.ndarray,
+    water: Flow,
 ) -> None:
     """Works along the cable over a step whose ``half`` is given, s, element by element; 0 after a jump.
 
@@ -232,13 +242,12 @@ def book_along(
         tension.book_jerk(cable, x, power.tension, work.tension, half, length, moment.net, -0.5 * jerk)
     if forces.wet:
         tension.book_sliding(cable, x, power.sliding, work.sliding, half, moment, outside)
-        factor, change = outside.current_factor, outside.current_rate
         current.begin(power.current, work.current, half)
         if forces.drag.acts:
             drag.book(
-                forces.drag, x, power.drag, work.drag, power.current, water, half, factor, length, sinks, slip
+                forces.drag, x, power.drag, work.drag, power.current, water.speed, half, length, sinks, slip
             )  # fmt: skip
-        current.give(forces.moved, x, power.current, water, change, length)
+        current.give(forces.moved, x, power.current, water.rate, length)
         current.end(power.current, work.current, half)
 
 
@@ -251,7 +260,7 @@ def book_at_ends(
     half: float,
     moment: Moment,
     outside: Exogenous,
-    water: np.ndarray,
+    water: Flow,
 ) -> None:
     """Works at ROV and vessel, ``half`` as in :func:`book_along`."""
     damped = payload_damping.power(forces.payload_damping, ends.tip_velocity)
@@ -274,14 +283,14 @@ def book_water_at_payload(
     half: float,
     moment: Moment,
     outside: Exogenous,
-    water: np.ndarray,
+    water: Flow,
 ) -> None:
     """What the water does to the ROV, as :func:`book_at_ends`."""
-    there = water[4, water.shape[1] - 1]
-    flow, velocity = outside.current_factor * there, ends.tip_velocity
+    last = water.speed.shape[1] - 1
+    flow, velocity = water.speed[4, last], ends.tip_velocity
     force = body_drag.force(forces.body_drag, flow - velocity)
     dragged, given = force * (velocity - flow), force * flow
-    given += forces.moved.body * outside.current_rate * there * velocity
+    given += forces.moved.body * water.rate[4, last] * velocity
     left = added_mass.power(cable, ends, moment, outside.sink_speed)
     works.work_body_drag += half * (works.power_body_drag + dragged)
     works.work_body_current += half * (works.power_body_current + given)
