@@ -116,6 +116,23 @@ def test_a_record_without_a_period_has_no_gaps() -> None:
     assert series(record(np.geomspace(1.0, 100.0, 40), np.zeros(40))).points.size == 40
 
 
+@pytest.mark.parametrize("noise", [0.02, 0.1])
+def test_declared_noise_is_taken_off_and_no_more(noise: float) -> None:
+    time = np.arange(0.0, 60.0, 0.1)
+    wave = 0.8 * np.sin(0.7 * time) + 0.3 * np.sin(1.3 * time + 1.0)
+    measured = wave + noise * np.random.default_rng(4).standard_normal(time.size)
+    found = series(record(time, measured), noise=noise).values
+    assert np.sqrt(np.mean((found - measured) ** 2)) == pytest.approx(noise, rel=0.01)
+    assert np.sqrt(np.mean((found - wave) ** 2)) < 0.6 * noise
+    curvature = [np.std(np.diff(values, 2)) / 0.1**2 for values in (wave, found, measured)]
+    assert curvature[1] < 2.0 * curvature[0] < curvature[2]
+
+
+def test_noise_as_large_as_the_motion_is_refused() -> None:
+    assert problem(record(EVEN, np.sin(EVEN)), noise=5.0).key == "here.file.noise"
+    assert "straight line" in str(problem(record(EVEN[:4], np.sin(EVEN[:4])), noise=0.01))
+
+
 def test_drift_is_taken_off_without_a_shift_of_phase() -> None:
     time = np.arange(0.0, 1200.0, 0.2)
     wave = np.sin(0.8 * time)

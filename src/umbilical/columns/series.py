@@ -21,6 +21,7 @@ WIDEST_GAP = 0.5
 _EPOCH = 3e8
 """s; a record that starts later counts from 1970, as no run does."""
 _REGULAR, _FEWEST = 0.9, 20
+_KNOTS, _WEIGHTS = 5, (-9.0, 14.0)
 _NINES = re.compile(r"-?9{2,}(\.9*|\.0*)?")
 
 
@@ -34,6 +35,7 @@ class Choice(NamedTuple):
         fill: numbers that stand for a missing value.
         blanks: whether rows with a blank cell are left out, too.
         drift: keep, mean or highpass(T).
+        noise: standard deviation of what a smoothing spline takes off, in the wanted unit.
         start: what is subtracted from the first column; None: its first value if those are dates, else 0.
         jumps: whether a point may stand twice.
     """
@@ -47,6 +49,7 @@ class Choice(NamedTuple):
     fill: tuple[float, ...] = ()
     blanks: bool = False
     drift: str = "keep"
+    noise: float | None = None
     start: float | None = None
     jumps: bool = False
 
@@ -83,6 +86,11 @@ def series_of(columns: Columns, choice: Choice, key: str) -> Series | list[Probl
         return problems
     dated = timed and (names[0] in columns.dates or points[0] > _EPOCH)
     start = choice.start if choice.start is not None else float(points[0]) if dated else 0.0
+    if timed and choice.noise is not None:
+        smooth = without_noise(points, values, choice.noise)
+        if smooth is None:
+            return [_too_noisy(values, choice, key)]
+        values = smooth
     return Series(points - start, _without_drift(points, values, choice.drift) if timed else values, start)
 
 
@@ -197,6 +205,40 @@ def _drift_problems(points: np.ndarray, drift: str, key: str) -> Iterator[Proble
             f"{key}.drift", drift, f"a period from four samples to a quarter of the record, {length / 4.0:.4g} s",
             "a slower motion cannot be told from the record's ends", "a shorter period, or mean",
         )  # fmt: skip
+
+
+def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.ndarray | None:
+    """The smoothing spline, at the points, that is as far from the values as their noise is large.
+
+    Of all curves with that root mean square distance it has the least int f''^2. Source: Reinsch, Numer. Math. 10
+    (1967). None where a straight line is nearer, or there are fewer than five points.
+
+    >>> t = np.linspace(0.0, 20.0, 201)
+    >>> rough = np.sin(t) + 0.1 * np.random.default_rng(1).standard_normal(t.size)
+    >>> smooth = without_noise(t, rough, 0.1)
+    >>> bool(np.std(smooth - np.sin(t)) < 0.05)
+    True
+    """
+    from scipy.interpolate import make_smoothing_spline
+    from scipy.optimize import brentq
+
+    if points.size < _KNOTS or np.std(values - np.polynomial.Polynomial.fit(points, values, 1)(points)) <= noise:
+        return None
+    count = (points - points[0]) / np.median(np.diff(points))
+
+    def smoothed(weight: float) -> np.ndarray:
+        return make_smoothing_spline(count, values, lam=10.0**weight)(count)
+
+    weight = brentq(lambda w: np.sqrt(np.mean((values - smoothed(w)) ** 2)) - noise, *_WEIGHTS, xtol=1e-2)
+    return smoothed(float(weight))
+
+
+def _too_noisy(values: np.ndarray, choice: Choice, key: str) -> Problem:
+    return Problem(
+        f"{key}.noise", f"{choice.noise:g} {choice.wanted}", "less than the values scatter about a straight line",
+        f"the values have a standard deviation of {np.std(values):.4g} {choice.wanted}: nothing would be left of them",
+        "the noise alone, in SI units",
+    )  # fmt: skip
 
 
 def _without_drift(points: np.ndarray, values: np.ndarray, drift: str) -> np.ndarray:

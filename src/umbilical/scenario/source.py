@@ -23,6 +23,10 @@ class FromFile(Record):
         default="keep", pattern=r"^(keep|mean|highpass\([0-9.]+(e[0-9]+)?\))$",
         description="what is taken off the values: keep (nothing), mean, highpass(T) (all that is slower than T s)",
     )  # fmt: skip
+    noise: float | None = Field(
+        default=None, gt=0.0, le=LARGEST,
+        description="standard deviation of the noise in a record, in SI units; a smoothing spline takes it off",
+    )  # fmt: skip
     start: float | None = Field(
         default=None, ge=-LARGEST, le=LARGEST, json_schema_extra={"unit": "s"},
         description="what is subtracted from the times; left out, the first time if they are dates, else 0",
