@@ -43,6 +43,18 @@ EDITS = {
         "flow[f] = velocity + transport * slope",
         ("moving end, paying out at 5 m/s", "moving end, hauling in at 4 m/s"),
     ),
+    "the material velocity in the drag across": Edit(
+        "plant/forces/drag.py",
+        "slides = (sinks - slip) / length\n    for j",
+        "slides = -slip / length\n    for j",
+        ("manufactured solution, at sea, l growing", "manufactured solution, at sea, l shrinking"),
+    ),
+    "the transport at the ROV": Edit(
+        "plant/cable.py",
+        "ends.tip_velocity - slip * ends.tip_slope",
+        "ends.tip_velocity",
+        ("manufactured solution, at sea, l growing", "manufactured solution, at sea, l shrinking"),
+    ),
     "the work of the thrust": Edit(
         "engine/stepping.py",
         "work_thrust += now.average.thrust * moved",

@@ -90,6 +90,30 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
         ("rope, paying out", "rope, hauling in", "rope, momentum*"),
     ),
     "three times the heave": (broken_rope.three_times_the_heave, ("rope, irregular*",)),
+    "added mass that slides along": (
+        broken.added_mass_that_slides_along,
+        ("string in water, sheave*", "manufactured solution, at sea*"),
+    ),
+    "T in place of Tt": (broken.tension_for_what_sliding_leaves, ("manufactured solution, at sea*",)),
+    "the lateral part of the drag along the cable omitted": (
+        broken.tangential_term_omitted,
+        ("manufactured solution, at sea*",),
+    ),
+    "buoyancy that accelerates": (broken.buoyancy_that_accelerates, ("string in water, tension",)),
+    "a fifth less weight in water": (
+        another_scenario(broken.a_fifth_less_weight_of_the_cable),
+        ("string in water, statics", "string in water, law*", "string in water, out and in"),
+    ),
+    "more added mass": (
+        another_scenario(broken.more_added_mass),
+        ("string in water, frequencies", "string in water, water that does nothing"),
+    ),
+    "less displaced by the ROV": (another_scenario(broken.less_displaced_by_the_rov), ("string in water, moving*",)),
+    "drag by the square of the diameter": (
+        another_scenario(broken.drag_by_the_square_of_the_diameter),
+        ("string in water, diameter*",),
+    ),
+    "a force nobody ordered, in water": (UNORDERED, ("string in water, mirror*", "string in water, superposition")),
     "a ROV that depends on the grid": (another_scenario(broken.a_rov_that_depends_on_the_grid), ("refinement",)),
 }
 """What is broken, and the cases that must notice, by pattern."""

@@ -16,8 +16,10 @@ from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
 from umbilical.control.outer import boundary
-from umbilical.plant import exogenous, faults, signals, winch
+from umbilical.plant import cable, exogenous, faults, signals, winch
 from umbilical.plant.checks import motion
+from umbilical.plant.forces import drag
+from umbilical.relations import tension
 from umbilical.scenario.document import look_up
 from umbilical.verify import ours
 
@@ -215,3 +217,52 @@ def wrong_sign_of_the_adaptive_law(patch: pytest.MonkeyPatch) -> None:
         return law
 
     patch.setattr("umbilical.control.cascade.make_adaptation", wrong)
+
+
+def _cable(**wrong: float) -> Break:
+    """Other constants of the cable than those of the scenario."""
+
+    def apply(patch: pytest.MonkeyPatch) -> None:
+        right = cable.make_cable
+        patch.setattr("umbilical.engine.stepping.make_cable", lambda scenario: right(scenario)._replace(**wrong))
+
+    return apply
+
+
+added_mass_that_slides_along = _cable(added=0.0, coupling=0.0)
+"""rho + rho_a in place of rho in rho D2y/Dt2, and nothing else."""
+tension_for_what_sliding_leaves = _cable(coupling=0.0)
+"""T in place of Tt."""
+
+
+def tangential_term_omitted(patch: pytest.MonkeyPatch) -> None:
+    """The drag along the cable lowers the tension, and its lateral part is forgotten."""
+    right = drag.make
+    patch.setattr(drag, "make", lambda scenario: right(scenario)._replace(tangential=0.0))
+
+
+def buoyancy_that_accelerates(patch: pytest.MonkeyPatch) -> None:
+    """T = (m + rho_wet s) (g - a) less what carries the ROV."""
+    right = tension.hanging
+
+    def wrong(mass: float, density: float, gravity: float, weight: float, wet: float) -> tension.Hanging:
+        return right(mass, wet, gravity, weight)
+
+    patch.setattr(tension, "hanging", wrong)
+
+
+def more_added_mass(scenario: Scenario) -> Mapping[str, Any]:
+    """Of the cable, where it is in water."""
+    water = scenario.cable.water
+    return {"cable.water.added_mass": water.added_mass + 0.5} if water else {}
+
+
+def less_displaced_by_the_rov(scenario: Scenario) -> Mapping[str, Any]:
+    """Froude-Krylov force of half the ROV."""
+    water = scenario.payload.water
+    return {"payload.water.displaced_mass": 0.5 * water.displaced_mass} if water else {}
+
+
+def drag_by_the_square_of_the_diameter(scenario: Scenario) -> Mapping[str, Any]:
+    water = scenario.cable.water
+    return {"cable.water.normal_drag": water.normal_drag * water.diameter / 0.03} if water else {}

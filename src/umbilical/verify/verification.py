@@ -27,6 +27,8 @@ from umbilical.verify import (
     sea,
     static_deflection,
     tip_damper,
+    water,
+    water_pairs,
 )
 from umbilical.verify.cases import Case, Check, Result
 
@@ -43,6 +45,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Whole loop": (*crosscheck.CASES, *cascade.CASES),
     "Invariance": invariance.CASES,
     "Sea and heave": sea.CASES,
+    "String in water": (*water.CASES, *water_pairs.CASES),
     "Rope": (*rope.CASES, *rope_waves.CASES),
 }
 """Every case, in the order of the table."""

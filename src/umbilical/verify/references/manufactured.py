@@ -6,7 +6,14 @@ sigma`` and ``b = v/l`` the material derivative is ``D/Dt = d/dt + b A d/dsigma`
     f = rho D2y/Dt2 - (T y_x)_x + c Dy/Dt         d = m D2y/Dt2 + T y_x + c_tip Dy/Dt  at the ROV
     T = W + w (l - x) - (m + rho (l - x)) a       weights in water, masses with all they are
 
-is a sum of six profiles, ``{1, A, A^2} x {sin, cos}``, each with a history of its own, and ``e = q``.
+is known in closed form, and ``e = q``. In a sea there are added mass, drag and current besides, and the sheave heaves::
+
+    f = ... + rho_a (d/dt + zeta' d/dx)^2 y - f_n - (rho_w A_c + rho_a) u_t
+    f_n = q_n |u_r| u_r - q_t |v_z| v_z y_x,      u_r = u - y_t - zeta' y_x,      v_z = v - zeta'
+    d = ... + A_h V' - (D_l + D_q |u - V|) (u - V) - (A_h + W_FK) u_t
+    T = ... - A_z a_z - (q_b + q_t (l - x)) |v_z| v_z,      a_z = a - zeta'' in place of a
+
+The equation as it stands, over the place x and not over what a solver may make of it.
 """
 
 from __future__ import annotations
@@ -17,6 +24,8 @@ import numpy as np
 
 Array = np.ndarray
 WAVENUMBER = 2.3 * np.pi
+HEAVING, SURGING = 1.1, 1.7
+"""Frequencies of the sheave's heave and of the current, rad/s."""
 
 
 class Histories(NamedTuple):
@@ -25,6 +34,45 @@ class Histories(NamedTuple):
     value: Array
     first: Array
     second: Array
+
+
+class Sea(NamedTuple):
+    """Water around the cable; without numbers there is none.
+
+    Attributes:
+        displaced, added: of a metre of cable, kg/m.
+        normal, tangential: drag of a metre over the square of the speed, N s2/m3.
+        body_displaced, body_added, body_vertical: of the ROV, kg; body_axial: its drag along the cable, N s2/m2.
+        body_linear, body_quadratic: its drag across, N s/m and N s2/m2.
+        surface, shear: the current is ``surface + shear z``, m/s and 1/s, z the depth, times 1 + surge sin(1.7 t).
+        surge: see there.
+        heave: zeta = heave (1 - cos(1.1 t)), m.
+    """
+
+    displaced: float = 0.0
+    added: float = 0.0
+    normal: float = 0.0
+    tangential: float = 0.0
+    body_displaced: float = 0.0
+    body_added: float = 0.0
+    body_vertical: float = 0.0
+    body_axial: float = 0.0
+    body_linear: float = 0.0
+    body_quadratic: float = 0.0
+    surface: float = 0.0
+    shear: float = 0.0
+    surge: float = 0.0
+    heave: float = 0.0
+
+    def heaving(self, t: Array) -> tuple[Array, Array, Array]:
+        """zeta, m, with its two derivatives."""
+        w, size = HEAVING, self.heave
+        return size * (1.0 - np.cos(w * t)), size * w * np.sin(w * t), size * w * w * np.cos(w * t)
+
+    def water(self, depth: Array, t: Array) -> tuple[Array, Array]:
+        """u and u_t at a fixed depth, m/s and m/s2."""
+        still = self.surface + self.shear * depth
+        return still * (1.0 + self.surge * np.sin(SURGING * t)), still * self.surge * SURGING * np.cos(SURGING * t)
 
 
 class Problem(NamedTuple):
@@ -46,6 +94,7 @@ class Problem(NamedTuple):
     frequency: float = 1.0
     vessel: float = 0.25
     steady: bool = False
+    sea: Sea = Sea()
 
     @property
     def speed(self) -> float:
@@ -66,8 +115,12 @@ class Problem(NamedTuple):
         return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
 
     def tension_at_the_tip(self, t: Array) -> Array:
-        """T(l) = W - m a, N."""
-        return self.weight - self.mass * self.winch(t)[2]
+        """T(l) = W - (m + A_z) a_z less the drag of the ROV as it sinks, N."""
+        _, speed, acceleration = self.winch(t)
+        _, zeta, zeta_rate = self.sea.heaving(t)
+        sinks = speed - zeta
+        moved = self.mass + self.sea.body_vertical
+        return self.weight - moved * (acceleration - zeta_rate) - self.sea.body_axial * sinks * abs(sinks)
 
     def sine_part(self, t: Array) -> Histories:
         """p(t) = p(0) - (1 - cos(2 t))/3."""
@@ -104,56 +157,64 @@ def tip_slope_rate(problem: Problem, t: Array) -> Array:
     return WAVENUMBER / length * (rate - speed / length * value)
 
 
-def profiles(sigma: Array) -> Array:
-    """The six profiles along the cable, shape (6, sigma): ``{1, A, A^2} x {sin, cos}``, sines first."""
-    above = 1.0 - sigma
-    waves = (np.sin(WAVENUMBER * sigma), np.cos(WAVENUMBER * sigma))
-    return np.array([above**power * wave for wave in waves for power in range(3)])
+def _along(problem: Problem, sigma: Array, t: Array, carrier: Array, change: Array) -> tuple[Array, Array]:
+    """``L y`` and ``L^2 y`` for ``L = d_t + w d_x`` at a fixed place, w the ``carrier`` and w' its ``change``.
 
-
-def load(problem: Problem, t: Array) -> Array:
-    """Histories of the six profiles in f, N/m, shape (6, t)."""
-    k, rho, c = WAVENUMBER, problem.line_density, problem.damping
-    length, speed, acceleration = problem.winch(t)
-    foot, gain = problem.tension_at_the_tip(t), problem.cable_weight - rho * acceleration
-    b = speed / length
-    db = acceleration / length - b * b
+    Over sigma that is ``d_t + b d_sigma`` with ``b = (w - v sigma)/l``.
+    """
     p, q = problem.sine_part(t), problem.cosine_part(t)
-    rows = []
-    # D2/Dt2 (g S) = g'' S + (2 g' b + g b') A S' + g b^2 (A^2 S'' - A S'), and S' of a sine is k times a cosine.
-    for g, h, sign in ((p, q, -1.0), (q, p, 1.0)):
-        inertia = (
-            g.second,
-            sign * k * (2.0 * h.first * b + h.value * db - h.value * b * b),
-            -k * k * g.value * b * b,
-        )
-        # T = T_l + (w - rho a) l A, so (T y_x)_x = [T g S'' - (w - rho a) l g S']/l^2.
-        slope = sign * k * h.value
-        pull = (
-            (-foot * k * k * g.value - gain * length * slope) / length**2,
-            -gain / length * k * k * g.value,
-            0.0 * t,
-        )
-        drag = (g.first, sign * k * b * h.value, 0.0 * t)
-        rows += [rho * inertia[n] - pull[n] + c * drag[n] for n in range(3)]
-    return np.array(rows)
+    length, speed, acceleration = problem.winch(t)
+    k, s, c = WAVENUMBER, np.sin(WAVENUMBER * sigma), np.cos(WAVENUMBER * sigma)
+    b = (carrier - speed * sigma) / length
+    changes = (change - acceleration * sigma) / length - b * speed / length  # b_t
+    bent = k * (p.value * c - q.value * s)  # y_sigma
+    turning = k * (p.first * c - q.first * s)
+    curved = -k * k * (p.value * s + q.value * c)
+    once = p.first * s + q.first * c + b * bent
+    twice = p.second * s + q.second * c + 2.0 * b * turning + (changes - b * speed / length) * bent + b * b * curved
+    return once, twice
+
+
+def load(problem: Problem, sigma: Array, t: Array) -> Array:
+    """f, N/m, at the places sigma and instants t, which broadcast: (A0) of docs/theory.md solved for it."""
+    sea, k = problem.sea, WAVENUMBER
+    length, speed, acceleration = problem.winch(t)
+    heave, zeta, zeta_rate = sea.heaving(t)
+    p, q = problem.sine_part(t), problem.cosine_part(t)
+    s, c = np.sin(k * sigma), np.cos(k * sigma)
+    slope, curved = k * (p.value * c - q.value * s) / length, -k * k * (p.value * s + q.value * c) / length**2
+    material, inertial = _along(problem, sigma, t, speed, acceleration)
+    passing, added = _along(problem, sigma, t, zeta, zeta_rate)  # y_t + zeta' y_x: what the water sees
+    sinks, above = speed - zeta, length * (1.0 - sigma)
+    braked = sinks * abs(sinks)
+    gain = problem.cable_weight - problem.line_density * (acceleration - zeta_rate) - sea.tangential * braked
+    tension = problem.tension_at_the_tip(t) + gain * above
+    pull = tension * curved - gain * slope
+    flow, changing = sea.water(length * sigma - heave, t)
+    drag = sea.normal * abs(flow - passing) * (flow - passing) - sea.tangential * braked * slope
+    inertia = problem.line_density * inertial + sea.added * added - (sea.displaced + sea.added) * changing
+    return inertia - pull + problem.damping * material - drag
 
 
 def force(problem: Problem, t: Array) -> Array:
     """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
+    sea = problem.sea
     p, q = problem.sine_part(t), problem.cosine_part(t)
     length = problem.winch(t)[0]
+    heave = sea.heaving(t)[0]
     s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
-    slope = WAVENUMBER / length * (p.value * c - q.value * s)
-    return (
-        problem.mass * (p.second * s + q.second * c)
-        + problem.tension_at_the_tip(t) * slope
-        + problem.tip_damping * (p.first * s + q.first * c)
-    )
+    first, second = p.first * s + q.first * c, p.second * s + q.second * c
+    slope = WAVENUMBER * (p.value * c - q.value * s) / length
+    flow, changing = sea.water(length - heave, t)
+    relative = flow - first
+    drag = (sea.body_linear + sea.body_quadratic * abs(relative)) * relative
+    moved = (sea.body_added + sea.body_displaced) * changing
+    inertia = (problem.mass + sea.body_added) * second
+    return inertia + problem.tension_at_the_tip(t) * slope + problem.tip_damping * first - drag - moved
 
 
 def wave_amplitude(problem: Problem, t: float) -> float:
-    """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum."""
+    """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum; no water."""
     sigma = np.linspace(0.0, 1.0, 201)
     length, _, acceleration = problem.winch(np.asarray(t))
     gain = problem.cable_weight - problem.line_density * acceleration

@@ -1,0 +1,166 @@
+"""The string in water without waves: added mass, drag and current against closed forms, and what two runs must share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from umbilical.library import load
+from umbilical.plant.equilibrium import equilibrium
+from umbilical.relations import tension as law
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
+from umbilical.verify.hanging_string import BESSEL
+from umbilical.verify.hanging_string import SOURCE as CHAIN
+from umbilical.verify.manufactured import LESS_DRAG, REFERENCE, SIZES, in_space
+from umbilical.verify.ours import open_loop
+from umbilical.verify.references.hanging_string import HangingString, frequencies
+from umbilical.verify.references.manufactured import Problem
+from umbilical.verify.references.water import Hung, Sliding
+
+DENSITY, GRAVITY, DIAMETER = 1025.0, 9.81, 0.04
+DISPLACED = DENSITY * np.pi * DIAMETER**2 / 4.0
+"""1.288 kg/m."""
+LINE, WET, MASS, WEIGHT = 5.412, 4.124, 9000.0, 35e3
+BODY: dict[str, Any] = {
+    "added_mass": 8000.0,
+    "vertical_added_mass": 8000.0,
+    "quadratic_drag": 3000.0,
+    "vertical_drag": 4500.0,
+}
+UNIFORM = {"depths": [0.0, 1000.0], "speeds": [0.5, 0.5]}
+SHEARED = {"depths": [0.0, 200.0], "speeds": [0.5, 0.1]}
+SEA: dict[str, Any] = {
+    "environment.gravity": GRAVITY,
+    "environment.water": {"density": DENSITY, "current": SHEARED},
+    "cable.line_density": LINE,
+    "cable.wet_line_density": WET,
+    "cable.water": {"diameter": DIAMETER},
+    "payload.mass": MASS,
+    "payload.wet_weight": WEIGHT,
+    "payload.water": BODY,
+}
+"""A TMS with its ROV on an umbilical of 40 mm in a sheared current."""
+
+
+def string(length: float, **changes: Any) -> Any:
+    """That string in open loop at a constant length, m."""
+    return open_loop(winch={"law": "constant", "length": length}).replace(SEA | ours.UNDAMPED | ours.dotted(changes))
+
+
+def returned(speed: float) -> Iterator[Check]:
+    """A bump meets the sheave while the cable slides through it."""
+    exact, until = Sliding(60e3, 5.408, DISPLACED, speed), 5.0
+    run = ours.completed(
+        string(
+            1000.0,
+            winch={"law": "speed", "start_length": 1000.0, "speed": speed},
+            initial={"shape": "gaussian", "amplitude": 1.0, "distance": 1000.0 - exact.center, "width": exact.width},
+            cable__line_density=exact.line_density,
+            cable__wet_line_density=0.0,
+            cable__water={"diameter": DIAMETER, "normal_drag": 0.0, "tangential_drag": 0.0},
+            environment__water__current=None,
+            payload__wet_weight=exact.tension,
+            payload__water=BODY | {"quadratic_drag": 0.0, "vertical_drag": 0.0},
+            grid__elements=120,
+            grid__step=5e-4,
+            duration=until,
+            output__interval=until,
+        )
+    )
+    x = run["sigma"].values * (1000.0 + speed * until)
+    parts = exact.parts(x, until)
+    y, slope, rate = (np.sum(fields, axis=0) for fields in zip(*parts, strict=True))
+    why = "what 120 elements leave of it"
+    for name, found in (("displacement", y), ("slope", slope), ("velocity", rate + speed * slope)):
+        yield history_close(f"{name} after {until:g} s", run[name].values[-1], found, 5e-4, why)
+    shape = parts[2][1] / exact.reflection
+    back = run["slope"].values[-1] - parts[0][1] - parts[1][1]
+    ratio = float(back @ shape / (shape @ shape))
+    why = "with the added mass sliding along it misses by 4e-3 at 1 m/s, without any by 2e-3"
+    yield close(f"slope returned over slope that came, {speed:g} m/s", ratio, exact.reflection, 1e-4, why)
+
+
+def tensions() -> Iterator[Check]:
+    """Buoyancy bears weight and accelerates nothing."""
+    s, a = np.linspace(0.0, 700.0, 50), 0.3
+    light = law.hanging(500.0, 2.0, GRAVITY, 4000.0, 0.0)
+    why = "round-off"
+    found = law.tension(s, GRAVITY - a, light)
+    yield each_close("T of a cable without weight, N", found, 4000.0 - (500.0 + 2.0 * s) * a, 1e-12, why)
+    drags = law.across(law.sinking(light, law.AxialDrag(50.0, 0.5), -2.0), 0.4, -2.0)
+    exact = 4000.0 + 4.0 * (50.0 + 0.5 * s) - 0.4 * 4.0
+    yield each_close("Tt while it is hauled in at 2 m/s, N", law.tension(s, GRAVITY, drags), exact, 1e-12, why)
+
+
+IN_CURRENT = Hung(WET * GRAVITY, WEIGHT, 0.5 * DENSITY * 1.2 * DIAMETER * 0.25, 3000.0 * 0.25, 1000.0)
+ALONE = IN_CURRENT._replace(force=0.0)
+"""The same with a body that nothing drags."""
+
+
+def statics() -> Iterator[Check]:
+    """The offset in a uniform current, what holds it back, and a run that starts there and stays."""
+    scenario = string(1000.0, environment__water__current=UNIFORM, grid__elements=16)
+    free, held = equilibrium(scenario), equilibrium(scenario, tip=0.0)
+    yield close("y(l) in 0.5 m/s, m", free.displacement[-1], IN_CURRENT.offset(), 1e-4, "four digits")
+    yield close("force that holds it, N", held.thrust, IN_CURRENT.holding(), 1e-4, "four digits")
+    still = ours.completed(
+        scenario.replace({"initial": {"shape": "equilibrium"}, "duration": 100.0, "output.interval": 10.0})
+    )
+    y = still["displacement"].values
+    there = np.broadcast_to(np.interp(still["sigma"].values, free.sigma, free.displacement), y.shape)
+    yield history_close("y over 100 s from there, m", y, there, 1e-4, "four digits")
+
+
+def station(options: dict[str, float], place: float, thrust: float) -> Iterator[Check]:
+    """The boundary law with all it wants to know, for 3000 s."""
+    outer = {"kind": "boundary", "damping_gain": 1e4, "slope_gain": 5.0, "rates": "sensor", **options}
+    scenario = load("paper", {
+        **SEA, "environment.water": {"current": UNIFORM}, "payload.water": {}, "environment.payload_force": [],
+        "control.law": outer, "winch": {"law": "constant", "length": 1000.0}, "motors": [], "ideal_thruster": True,
+        "sensors.ideal_velocity": True, "control.velocity_observer": None, "control.slope_observer": None,
+        "control.motor_loop": None, "control.disturbance_observer.gain": 1.0, "control.period": 5e-3,
+        "grid.step": 5e-3, "grid.elements": 16, "duration": 3000.0, "output.interval": 1.0,
+    })  # fmt: skip
+    run = ours.completed(scenario)
+    tip, last = run["tip_displacement"].values, float(run["thrust"].values[-1])
+    why = "what has not settled in 3000 s"
+    yield small("y(l) less where it rests, over 51 m", (tip[-1] - place) / ALONE.offset(), 1e-3, why)
+    yield small("thrust less what holds it there, over 2685 N", (last - thrust) / ALONE.holding(), 1e-3, why)
+
+
+LOST = IN_CURRENT._replace(force=0.0)
+
+
+def scaled() -> Iterator[Check]:
+    """Added mass slows the waves: the hanging chain with M in place of rho and m + A_h in place of m."""
+    for name, body in (("body free", MASS), ("body held", 1e9)):
+        scenario = string(1000.0, payload__mass=body, environment__water__current=None, grid__elements=32)
+        inertia, moved = LINE + DISPLACED, body + BODY["added_mass"]
+        wet = HangingString(inertia, moved, 1000.0, GRAVITY, WEIGHT / (moved * GRAVITY), WET / inertia)
+        found = np.imag(ours.poles(scenario, 3))
+        yield each_close(f"w1, w2, w3, {name}, rad/s", found, frequencies(wet, 3), 1e-4, "four digits")
+
+
+CLOSED = "closed form"
+CASES = (
+    *(
+        Case(f"manufactured solution, at sea, l {way}", REFERENCE, "(A0) of docs/theory.md, loads derived by hand",
+             lambda swing=swing: in_space(Problem(swing, sea=LESS_DRAG)))
+        for way, swing in SIZES.items()
+    ),
+    *(
+        Case(f"string in water, sheave at {speed:+g} m/s", "(S - rho v)/(S + rho v), waves of d'Alembert",
+             "constant tension and speed", lambda speed=speed: returned(speed))
+        for speed in (1.0, 20.0, -20.0)
+    ),
+    Case("string in water, tension", CLOSED, "axial balance of what hangs and sinks", tensions),
+    Case("string in water, statics", "q l/w + (F - q W/w)/w ln(1 + w l/W)", "T y_x = F + q (l - x)", statics),
+    Case("string in water, frequencies", BESSEL, CHAIN, scaled),
+    Case("string in water, law without a station", "rest where y_x(l) = 0", CLOSED,
+         lambda: station({}, ALONE.offset(), 0.0)),
+    Case("string in water, law with a station", "rest at the station", CLOSED,
+         lambda: station({"station_gain": 0.1, "washout_time": 120.0}, 0.0, ALONE.holding())),
+)  # fmt: skip

@@ -1,0 +1,161 @@
+"""What must hold between two runs of the string in water, and what must not: drag adds no responses up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from umbilical.plant.equilibrium import equilibrium
+from umbilical.run import Run
+from umbilical.verify import ours
+from umbilical.verify.cases import Case, Check, history_close, small
+from umbilical.verify.invariance import ROUND_OFF, TWO_RUNS, WHY
+from umbilical.verify.ours import constant, open_loop, sine
+from umbilical.verify.water import DISPLACED, LINE, MASS, SEA, string
+
+SLIDES = {"law": "quintic", "start_length": 100.0, "end_length": 108.0, "duration": 10.0}
+UNIFORM = {"depths": [0.0, 200.0], "speeds": [0.5, 0.5]}
+CARRIED, TURNING = 0.3, 0.5
+"""Size, m, and frequency, rad/s, of the frame ``s = a (1 - cos w t)^2``, which sets off gently."""
+BODY_DISPLACED = 5000.0
+
+
+def moved(**changes: Any) -> Run:
+    """Ten seconds of that string with winch and heave at work, from a bent start."""
+    base: dict[str, Any] = {
+        "winch": SLIDES, "environment__vessel_heave": [constant(0.3), sine(-0.3, 0.8, np.pi / 2.0)],
+        "initial": {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5},
+        "grid__elements": 8, "duration": 10.0, "output__interval": 0.1,
+    }  # fmt: skip
+    return ours.completed(string(100.0, **base | changes))
+
+
+def moving_frame() -> Iterator[Check]:
+    """Vessel, water and ROV carried along by s(t): y + s, where d'Alembert's force acts on what the water leaves.
+
+    Added mass and Froude-Krylov force carry the water's share, so that is the mass less the displaced one.
+    """
+    a, w, quarter, speed = CARRIED, TURNING, np.pi / 2.0, 0.5
+    frame = [constant(1.5 * a), sine(-2.0 * a, w, quarter), sine(0.5 * a, 2.0 * w, quarter)]
+    rate = 2.0 * a * w / speed
+    pushed = 2.0 * a * w * w
+    apart = [sine(pushed, w, quarter), sine(-pushed, 2.0 * w, quarter)]
+    body = SEA["payload.water"] | {"displaced_mass": BODY_DISPLACED}
+    still = moved(environment__water__current=UNIFORM, payload__water=body)
+    carried = moved(
+        payload__water=body,
+        environment__water__current=UNIFORM | {"variation": [sine(rate, w), sine(-0.5 * rate, 2.0 * w)]},
+        environment__vessel_motion=frame,
+        environment__payload_force=[
+            term | {"amplitude": (MASS - BODY_DISPLACED) * term["amplitude"]} for term in apart
+        ],
+        environment__cable_load=[
+            {
+                "profile": {"shape": "uniform"},
+                "signal": [term | {"amplitude": (LINE - DISPLACED) * term["amplitude"]} for term in apart],
+            }
+        ],
+    )
+    t = still["time"].values[:, None]
+    drift = a * (1.0 - np.cos(w * t)) ** 2
+    why = "third order in the step of 1 ms, of a slow motion"
+    yield history_close(
+        "y + s, m", carried["displacement"].values, still["displacement"].values + drift, ROUND_OFF, why
+    )
+    faster = 2.0 * a * w * np.sin(w * t) * (1.0 - np.cos(w * t))
+    yield history_close(
+        "Dy/Dt + s', m/s", carried["velocity"].values, still["velocity"].values + faster, ROUND_OFF, why
+    )
+
+
+def mirror_image() -> Iterator[Check]:
+    """y -> -y, the current from the other side."""
+    sides = []
+    for sign in (1.0, -1.0):
+        sides.append(
+            moved(
+                environment__water__current={"depths": [0.0, 200.0], "speeds": [0.5 * sign, 0.1 * sign]},
+                environment__vessel_motion=[constant(0.2 * sign), sine(-0.2 * sign, 1.1, np.pi / 2.0)],
+                environment__payload_force=[sine(500.0 * sign, 0.7)],
+                initial={"shape": "sine", "amplitude": sign, "half_waves": 1.5},
+            )["displacement"].values
+        )
+    yield history_close("y, m", sides[1], -sides[0], ROUND_OFF, WHY)
+
+
+def same_product() -> Iterator[Check]:
+    """Twice the diameter at half the drag and a quarter of the added mass."""
+    thin = moved(cable__water={"diameter": 0.03, "normal_drag": 1.2, "tangential_drag": 0.02, "added_mass": 1.0})
+    thick = moved(cable__water={"diameter": 0.06, "normal_drag": 0.6, "tangential_drag": 0.01, "added_mass": 0.25},
+                  cable__line_density=LINE)  # fmt: skip
+    yield history_close("y, m", thick["displacement"].values, thin["displacement"].values, ROUND_OFF, WHY)
+
+
+def summed(normal: float, quadratic: float) -> float:
+    """How far the response to two inputs is from the sum of the responses, over its peak; no current."""
+
+    def respond(force: float, start: float) -> np.ndarray:
+        return moved(
+            environment__water__current=None,
+            cable__water={"diameter": 0.04, "normal_drag": normal, "tangential_drag": 0.01},
+            payload__water=SEA["payload.water"] | {"quadratic_drag": quadratic},
+            environment__payload_force=[sine(force, 0.7)],
+            initial={"shape": "sine", "amplitude": start, "half_waves": 1.5},
+        )["displacement"].values
+
+    whole, parts = respond(2e3, 1.0), respond(2e3, 0.0) + respond(0.0, 1.0)
+    return float(np.abs(whole - parts).max() / np.abs(parts).max())
+
+
+def superposed() -> Iterator[Check]:
+    """Added mass is linear, and so is the lateral part of the drag along the cable; drag across is not."""
+    without, dragged = summed(0.0, 0.0), summed(1.2, 3000.0)
+    yield Check("y of a sum less the sum of y, no drag across", without, 0.0, without, ROUND_OFF, WHY)
+    why = "|u_r| u_r is not linear: it must be at least 1e-2"
+    yield Check("the same with drag", dragged, 1e-2, 1e-2 / dragged, 1.0, why)
+
+
+def out_and_in() -> Iterator[Check]:
+    """A cable paid out and hauled in again hangs where it hung."""
+    there = string(100.0, grid__elements=8)
+    law = {"law": "cosine", "start_length": 100.0, "amplitude": 4.0, "frequency": 2.0 * np.pi / 600.0}
+    end = there.replace({
+        "winch": law, "initial": {"shape": "equilibrium"}, "duration": 600.0, "output.interval": 600.0,
+        "payload.damping": 2000.0,
+    })  # fmt: skip
+    found, exact = ours.completed(end), equilibrium(there)
+    y = np.interp(found["sigma"].values, exact.sigma, exact.displacement)
+    why = "what 4 cm/s of sliding leave behind"
+    yield history_close("y after 600 s, m", found["displacement"].values[-1], y, 1e-3, why)
+
+
+def water_that_does_nothing() -> Iterator[Check]:
+    """No drag, no added mass, weights as in air: every number of the run in air, to the last bit."""
+    dry = open_loop(
+        duration=2.0, grid__elements=8, output__interval=0.01, environment__payload_force=[constant(100.0)],
+        winch={"law": "quintic", "start_length": 100.0, "end_length": 104.0, "duration": 2.0},
+    )  # fmt: skip
+    nothing = {"diameter": 0.001, "normal_drag": 0.0, "tangential_drag": 0.0, "added_mass": 0.0}
+    wet = dry.replace({
+        "environment.water": {}, "cable.water": nothing, "payload.water": {},
+        "cable.wet_line_density": dry.cable.line_density,
+        "payload.wet_weight": dry.payload.mass * dry.environment.gravity,
+    })  # fmt: skip
+    before, after = ours.completed(dry), ours.completed(wet)
+    for name in map(str, before.data.data_vars):
+        if not name.startswith("metric_") and name != "energy_residual":  # what rounding leaves of a longer sum
+            apart = float(np.count_nonzero(before[name].values != after[name].values))
+            yield small(f"{name}, values that differ", apart, 0.0, "the same arithmetic")
+
+
+CASES = (
+    Case("string in water, moving frame", TWO_RUNS, "Galilei and d'Alembert", moving_frame),
+    Case("string in water, mirror image", TWO_RUNS, "(A0) is odd in y and u", mirror_image),
+    Case("string in water, diameter for coefficients", TWO_RUNS, "only C d and C d^2 count", same_product),
+    Case("string in water, superposition", "sum of two responses", "linear without drag across", superposed),
+    Case("string in water, out and in", "statics", "T y_x = F + integral of f", out_and_in),
+    Case("string in water, water that does nothing", "a run in air", "(A0) with C_d = C_a = 0 and W = m g",
+         water_that_does_nothing),
+)  # fmt: skip
