@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -246,6 +247,49 @@ def test_what_it_is_not_about_is_refused(preset: str, change: dict[str, float], 
     with pytest.raises(ScenarioError) as refused:
         umbilical.certify(umbilical.load(preset, change))
     assert [problem.key for problem in refused.value.problems] == [key]
+
+
+WATER = {
+    "environment.gravity": 9.81, "environment.water": {"current": {"depths": [0.0, 600.0], "speeds": [0.5, 0.1]}},
+    "winch": {"law": "constant", "length": 400.0}, "payload.wet_weight": 3500.0, GAIN: 5.0,
+    "payload.water": {"linear_drag": 60.0, "added_mass": 200.0},
+    "cable.wet_line_density": 1.2, "cable.water": {"diameter": 0.02, "normal_drag": 0.0, "tangential_drag": 0.0},
+}  # fmt: skip
+
+
+def test_linear_damping_in_a_steady_current_is_proved_and_pushes() -> None:
+    """D_l u is a constant force on the ROV, as a payload_force of that size; drag of its own motion is cancelled."""
+    at_sea = umbilical.certify(umbilical.load("ringdown", WATER))
+    assert at_sea.holds
+    still = {"environment.water.current": None}
+    pushed = {"environment.payload_force": [{"kind": "constant", "value": 60.0 * (0.5 - 0.4 * 400.0 / 600.0)}]}
+    same = umbilical.certify(umbilical.load("ringdown", WATER | still | pushed))
+    assert at_sea.loads.force == pytest.approx(same.loads.force)
+    assert (at_sea.rate, at_sea.residual) == pytest.approx((same.rate, same.residual))
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"cable.water.normal_drag": 1.2}, "cable.water.normal_drag"),
+        ({"payload.water.quadratic_drag": 10.0}, "payload.water.quadratic_drag"),
+        ({"control.law.station_gain": 0.1}, "control.law.station_gain"),
+        ({"control.law.washout_time": 120.0}, "control.law.washout_time"),
+        (
+            {"environment.water.current.variation": [{"kind": "sine", "amplitude": 0.1, "frequency": 1.0}]},
+            "environment.water.current.variation",
+        ),
+        ({"environment.vessel_heave": [{"kind": "sine", "amplitude": 0.1, "frequency": 0.3}]},
+         "environment.vessel_heave"),
+        ({"winch": {"law": "quintic", "start_length": 400.0, "end_length": 420.0, "duration": 40.0}}, "cable.water"),
+        ({"winch": {"law": "quintic", "start_length": 400.0, "end_length": 420.0, "duration": 40.0}},
+         "environment.water.current.speeds"),
+    ],
+)  # fmt: skip
+def test_water_that_no_proof_covers_is_refused_by_name(change: dict[str, Any], key: str) -> None:
+    with pytest.raises(ScenarioError) as refused:
+        umbilical.certify(umbilical.load("ringdown", WATER).replace(change))
+    assert key in [problem.key for problem in refused.value.problems]
 
 
 def test_limits_name_what_lies_between_the_ideal_loop_and_the_scenario() -> None:

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.sparse import identity
+from scipy.sparse.linalg import spsolve
 
 from tests.support.spectra import tip_response
 from umbilical.analysis.impedance import (
     HangingCable,
+    hanging_cable,
     payload_stiffness,
     upward_asymptote,
     wave_number,
     waves,
 )
+from umbilical.engine.linear import linearise_plant
+from umbilical.verify.water import string
 
 PAPER = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 20.0, 500.0)
 CONSTANT = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 0.0, 400.0)
@@ -85,3 +90,22 @@ def test_round_trip_is_the_slope_of_the_echo():
     echo = waves(PAPER, p).echo
     assert PAPER.round_trip / 2.0 == pytest.approx(7.32, abs=0.001)
     assert -np.angle(echo[1] / echo[0]) / 0.001 == pytest.approx(PAPER.round_trip, rel=1e-6)
+
+
+def test_pieces_of_the_same_damping_are_one_cable():
+    p = np.array([1e-3 + 0.05j, 0.3j, 2.0 + 5.0j])
+    whole = HangingCable(2.0, 0.8, 500.0, 3.0, 5000.0, 20.0, 500.0)
+    cut = HangingCable(2.0, 0.8, 500.0, 3.0, 5000.0, 20.0, 500.0, pieces=((100.0, 0.8), (250.0, 0.8), (150.0, 0.8)))
+    for one, other in zip(waves(whole, p), waves(cut, p), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-10, atol=1e-15)
+
+
+def test_a_sheared_current_damps_along_the_cable_as_the_engine_has_it():
+    """One even damping in its place misses the slope per force by two thirds."""
+    current = {"depths": [0.0, 1000.0], "speeds": [0.5, 0.1]}
+    scenario = string(1000.0, environment__water__current=current, grid__elements=32)
+    plant = linearise_plant(scenario)
+    p = np.array([0.01, 0.1, 1.0]) * 1j + 1e-4
+    matrices = (q * identity(plant.a.shape[0], format="csc") - plant.a for q in p)
+    grid = np.array([(plant.c @ spsolve(matrix.tocsc(), plant.b[:, 0].astype(complex)))[:2] for matrix in matrices]).T
+    np.testing.assert_allclose(tip_response(hanging_cable(scenario, 1000.0), p), grid, rtol=5e-3)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy
@@ -31,7 +33,7 @@ def test_case(case: Case) -> None:
 )
 def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
     """(A0), (A1) and (A2) of docs/theory.md applied to y by sympy, at points and instants of no meaning."""
-    sea = pr.sea
+    sea: Any = pr.sea
     x, t = sympy.symbols("x t", real=True)
     out = pr.speed * t if pr.steady else pr.swing * (1 - sympy.cos(pr.frequency * t))
     length = pr.start_length + out
@@ -40,10 +42,10 @@ def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
     p, q = pr.start - (1 - sympy.cos(2 * t)) / 3, pr.vessel * (1 - sympy.cos(1.3 * t))
     y = p * sympy.sin(angle) + q * sympy.cos(angle)
     below = length - x
-    heave = sea.heave * (1 - sympy.cos(exact.HEAVING * t))
+    heave: Any = sea.heave * (1 - sympy.cos(exact.HEAVING * t))
     sinks = speed - sympy.diff(heave, t)
-    sunk = acceleration - sympy.diff(heave, t, 2)
-    braked = sinks * sympy.Abs(sinks)
+    sunk: Any = acceleration - sympy.diff(heave, t, 2)
+    braked: Any = sinks * sympy.Abs(sinks)
     tension = pr.weight + pr.cable_weight * below - (pr.mass + sea.body_vertical + pr.line_density * below) * sunk
     tension -= (sea.body_axial + sea.tangential * below) * braked
     depth = sympy.Symbol("depth")

@@ -12,11 +12,16 @@ back what arrives there, A = echo * B, so that at the ROV::
     Y = (1 + echo) B,   T Y_x = -(down * echo + up) B,   down, up = T d/ds ln H(X) at the ROV
 
 High above the first modes ``up`` tends to ``-p sqrt(rho T)``, the impedance of a cable without an end.
+
+Where the drag of a sheared current damps differently along the cable, c is constant in each of some pieces, across
+whose ends Y and T Y_s go on: the echo is worked out from the vessel down, piece by piece.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +35,8 @@ from umbilical.relations.water import line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
 
 _POINTS = 2001
+_PIECES = 40
+"""Of even damping, where that varies; the error falls with the square of their number."""
 
 
 @dataclass(frozen=True)
@@ -38,11 +45,12 @@ class HangingCable:
 
     Attributes:
         line_density: kg/m.
-        damping: N s/m2.
+        damping: N s/m2; at the ROV, where there are pieces.
         payload_mass, payload_damping: the ROV, kg and N s/m.
         tip_tension: at the ROV, N.
         weight: of a metre of cable, which is what the tension gains on it, N/m.
         length: m.
+        pieces: length, m, and damping, N s/m2, of each from the ROV up; none where the damping is even.
     """
 
     line_density: float
@@ -52,6 +60,7 @@ class HangingCable:
     tip_tension: float
     weight: float
     length: float
+    pieces: tuple[tuple[float, float], ...] = ()
 
     @property
     def tip_wave_speed(self) -> float:
@@ -91,25 +100,32 @@ class Waves(NamedTuple):
 def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
     """Cable and ROV of a scenario at a length, m, the winch standing still, in the current of the start.
 
-    Drag counts with its slope there. Along the cable, where that varies with depth, the damping is the even one that
-    takes as much from a short wave on its way: the mean over the time of travel.
+    Drag counts with its slope there, along the cable with its mean over each of the pieces where it varies with depth.
     """
     cable, payload, environment = scenario.cable, scenario.payload, scenario.environment
     hung, net = hanging_of(cable, payload, environment), net_gravity(environment.gravity)
     sigma = np.linspace(0.0, 1.0, _POINTS)
     water = speeds_at(environment, length * sigma) * float(current_at(environment, np.array(0.0))[0])
     at = OperatingPoint(length, np.zeros(_POINTS), water)
-    slowness = 1.0 / np.sqrt(np.maximum(tension(length * (1.0 - sigma), net, hung), 1e-9))
-    taken = sum(np.trapezoid(found * slowness, sigma) for found in dampings(scenario, at, "cable"))
+    damping = np.sum([np.broadcast_to(found, sigma.shape) for found in dampings(scenario, at, "cable")], axis=0)[::-1]
+    pieces = _pieces(damping, length) if np.ptp(damping) > 1e-9 * damping.max() else ()
     return HangingCable(
         line_density=line_inertia(cable, payload, environment),
-        damping=float(taken / np.trapezoid(slowness, sigma)) if environment.water else cable.damping,
+        damping=pieces[0][1] if pieces else float(damping[0]),
         payload_mass=payload_inertia(payload),
         payload_damping=float(sum(dampings(scenario, at, "payload"))),
         tip_tension=tension(0.0, net, hung),
         weight=tension_gain(1.0, net, hung),
         length=length,
+        pieces=pieces,
     )
+
+
+def _pieces(damping: np.ndarray, length: float) -> tuple[tuple[float, float], ...]:
+    """Pieces with the mean of a damping that is given at even distances from the ROV up, N s/m2."""
+    every = (damping.size - 1) // _PIECES
+    parts = (damping[first : first + every + 1] for first in range(0, damping.size - 1, every))
+    return tuple((length / _PIECES, float(np.trapezoid(part) / every)) for part in parts)
 
 
 def waves(cable: HangingCable, p: np.ndarray) -> Waves:
@@ -120,22 +136,55 @@ def waves(cable: HangingCable, p: np.ndarray) -> Waves:
     True
     """
     p = np.asarray(p, dtype=complex)
+    top, *below = map(partial(_through, p=p), _from_the_vessel(cable))
+    echo, last = -top.round_trip, top
+    for piece in below:
+        there, pull = 1.0 + echo, last.down * echo + last.up
+        echo = piece.round_trip * (piece.top_up * there - pull) / (pull - piece.top_down * there)
+        last = piece
+    return Waves(echo, last.down, last.up)
+
+
+class _Through(NamedTuple):
+    """An even cable: what of a wave that went up comes down again, were its upper end free; T d/ds at both ends."""
+
+    round_trip: np.ndarray
+    down: np.ndarray
+    up: np.ndarray
+    top_down: np.ndarray
+    top_up: np.ndarray
+
+
+def _from_the_vessel(cable: HangingCable) -> Iterator[HangingCable]:
+    """Its pieces as cables of their own, from the vessel down."""
+    bottom = cable.length
+    for length, damping in reversed(cable.pieces or ((cable.length, cable.damping),)):
+        bottom -= length
+        tension = cable.tip_tension + cable.weight * bottom
+        yield replace(cable, damping=damping, tip_tension=tension, length=length, pieces=())
+
+
+def _through(cable: HangingCable, p: np.ndarray) -> _Through:
     gamma = wave_number(cable, p)
+    slope = cable.tip_tension * gamma
     if cable.weight == 0.0:
-        slope = cable.tip_tension * gamma
-        return Waves(-np.exp(-2.0 * gamma * cable.length), slope, -slope)
+        return _Through(np.exp(-2.0 * gamma * cable.length), slope, -slope, slope, -slope)
     from scipy.special import hankel1e, hankel2e
 
-    # X at the ROV and X at the vessel less X at the ROV, which must not be a difference of large numbers.
-    scale = 2.0 * cable.tip_tension / cable.weight
+    # X at the lower end and X at the upper less X at the lower, which must not be a difference of large numbers.
     ratio = cable.weight * cable.length / cable.tip_tension
     stretch = ratio / (np.sqrt(1.0 + ratio) + 1.0)
-    tip = -1j * gamma * scale
+    tip = -2j * slope / cable.weight
     path = tip * stretch
-    down, up = hankel1e(0, tip), hankel2e(0, tip)
-    echo = -hankel2e(0, tip + path) / up * down / hankel1e(0, tip + path) * np.exp(-2j * path)
-    slope = 1j * cable.tip_tension * gamma
-    return Waves(echo, slope * hankel1e(1, tip) / down, slope * hankel2e(1, tip) / up)
+    top, steep = tip + path, slope * (1.0 + stretch)
+    down, up, top_down, top_up = hankel1e(0, tip), hankel2e(0, tip), hankel1e(0, top), hankel2e(0, top)
+    return _Through(
+        top_up / up * down / top_down * np.exp(-2j * path),
+        1j * slope * hankel1e(1, tip) / down,
+        1j * slope * hankel2e(1, tip) / up,
+        1j * steep * hankel1e(1, top) / top_down,
+        1j * steep * hankel2e(1, top) / top_up,
+    )
 
 
 def wave_number(cable: HangingCable, p: np.ndarray) -> np.ndarray:

@@ -35,7 +35,7 @@ AT_SEA = Sea(
     displaced=0.6, added=0.9, normal=4.0, tangential=1.5, body_displaced=12.0, body_added=20.0, body_vertical=15.0,
     body_axial=4.0, body_linear=6.0, body_quadratic=9.0, surface=2.5, shear=8e-3, surge=0.1, heave=0.35,
 )  # fmt: skip
-"""Every term counts, and the current outruns the cable everywhere: |u_r| u_r is smooth only where u_r keeps its sign."""
+"""Every term counts, and the current outruns the cable everywhere: |u_r| u_r is smooth where u_r keeps its sign."""
 LESS_DRAG = AT_SEA._replace(normal=0.2, body_linear=3.0, body_quadratic=4.0)
 """For orders: strong drag takes more of the error of a coarse grid than of a fine one, which hides them."""
 SIZES = {"growing": 4.0, "shrinking": -4.0}

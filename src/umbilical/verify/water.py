@@ -1,4 +1,4 @@
-"""The string in water without waves: added mass, drag and current against closed forms, and what two runs must share."""
+"""The string in water without waves: added mass, drag and current against what is known in closed form."""
 
 from __future__ import annotations
 

@@ -13,6 +13,7 @@ from umbilical.analysis.certificate.records import Certificate
 from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
 from umbilical.analysis.ideal_loop import energy_rate
 from umbilical.errors import expect
+from umbilical.relations.water import in_water
 from umbilical.scenario.control import Nominal
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
@@ -44,7 +45,8 @@ def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
     edges = slab_edges(scenario.winch, scenario.duration)
     motion = sampled(scenario.winch, scenario.environment.gravity, edges)
     ranges = ranges_of(scenario.winch, loop.g, edges)
-    loads = loads_of(scenario.environment, float(ranges.length.high.max()))
+    dragged = in_water(scenario.cable, scenario.payload, scenario.environment).body_linear
+    loads = loads_of(scenario.environment, float(ranges.length.high.max()), dragged)
     task = Task(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
     found = attempt(loop, task)
     weights, proved, proof = found

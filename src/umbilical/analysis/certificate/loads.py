@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from umbilical.plant.current import speeds_at
 from umbilical.plant.seaway import along
 from umbilical.plant.signals import curve_of
 from umbilical.scenario.environment import Environment, GaussianProfile, Profile, SineProfile, TableProfile
@@ -39,17 +40,19 @@ class Loads(NamedTuple):
     vessel_velocity: float
 
 
-def loads_of(environment: Environment, longest: float) -> Loads:
+def loads_of(environment: Environment, longest: float, drag: float = 0.0) -> Loads:
     """Bounds of a scenario's loads.
 
     Args:
         environment: forces and vessel.
         longest: greatest length of the cable in the run, m.
+        drag: D_l of the ROV, N s/m: in a steady current at a steady depth ``D_l u`` is a constant force.
     """
     motion = along(environment)
     velocity = rate(motion) + (_FADE_SLOPE * size(motion) / environment.vessel_ramp if environment.vessel_ramp else 0.0)
     of_cable = sum(size(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
-    force = environment.payload_force
+    carried = drag * float(speeds_at(environment, np.array(longest)))
+    force = (*environment.payload_force, *([Constant(kind="constant", value=carried)] if carried else []))
     return Loads(size(force), rate(force), jumps(force), longest * of_cable**2, size(motion), velocity)
 
 

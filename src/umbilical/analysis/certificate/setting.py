@@ -77,8 +77,8 @@ class Motion(NamedTuple):
 def loop_of(scenario: Scenario) -> Loop:
     """Constants of the ideal loop.
 
-    A steady current moves the point of rest, about which the loop is the same where all damping is linear; added mass
-    is inertia where the winch stands still.
+    A steady current pushes a ROV with linear damping by a constant force, which is one of its loads; added mass is
+    inertia where the winch stands still.
 
     Raises:
         ScenarioError: the outer law is not the boundary law, or its slope gain is 0; or the water does what no proof
@@ -117,6 +117,8 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
     still, cure = isinstance(scenario.winch, ConstantLength), "take it to 0 for a certificate, and judge it by margins"
     heave, dragged = bool(heaving(scenario.environment)), found.tangential + found.body_axial > 0.0
     moved = found.added + found.body_vertical > 0.0
+    current = scenario.environment.water.current if scenario.environment.water else None
+    sheared = current is not None and found.body_linear > 0.0 and len({*current.speeds}) > 1
     holds = "V3 holds no distance from a station, and no slope that is washed out"
     law = scenario.control.law
     for key, wrong, reason in (
@@ -125,6 +127,7 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
         ("cable.water.normal_drag", found.normal > 0.0, linear),
         ("payload.water.quadratic_drag", found.body_quadratic > 0.0, linear),
         ("environment.water.current.variation", bool(variation_of(scenario.environment)), "a steady current only"),
+        ("environment.water.current.speeds", not still and sheared, "a ROV that sinks meets another current"),
         ("environment.vessel_heave", heave, "the tension follows the winch alone"),
         ("cable.water", not still and (moved or dragged), moves),
     ):
