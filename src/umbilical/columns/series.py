@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -229,7 +229,7 @@ def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.nd
     def smoothed(weight: float) -> np.ndarray:
         return make_smoothing_spline(count, values, lam=10.0**weight)(count)
 
-    weight = brentq(lambda w: np.sqrt(np.mean((values - smoothed(w)) ** 2)) - noise, *_WEIGHTS, xtol=1e-2)
+    weight: Any = brentq(lambda w: np.sqrt(np.mean((values - smoothed(w)) ** 2)) - noise, *_WEIGHTS, xtol=1e-2)
     return smoothed(float(weight))
 
 
