@@ -15,7 +15,7 @@ PRESETS = {
     "paper-dead-adaptive", "paper-stuck-adaptive", "paper-partial-adaptive",
     "crosscheck-none", "crosscheck-pd", "crosscheck-proposed", "crosscheck-no-observer", "ringdown", "haul-in",
 }  # fmt: skip
-AT_SEA = {"observation-300m", "work-class-3000m", "work-class-payout"}
+AT_SEA = {"observation-300m", "work-class-1000m-current", "work-class-3000m", "work-class-payout"}
 """Presets in water, of which there is something to tell."""
 
 
