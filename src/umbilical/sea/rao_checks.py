@@ -79,7 +79,7 @@ def sea_problems(vessel: RaoVessel, spectrum: Spectrum, heading: float, key: str
     if share < LEAST_COVERED:
         low, high = 2.0 * np.pi / vessel.omega[-1], 2.0 * np.pi / vessel.omega[0]
         yield Problem(
-            f"{key}.frequency", f"periods from {low:.4g} to {high:.4g} s hold {share:.1%} of the energy of a sea of Tp "
+            f"{key}.frequency", f"periods from {low:.4g} to {high:.4g} s hold {share:.4%} of the energy of a sea of Tp "
             f"{spectrum.peak_period:.4g} s", f"{LEAST_COVERED:.0%} or more", "outside the table nothing moves",
             "extend the table",
         )  # fmt: skip
