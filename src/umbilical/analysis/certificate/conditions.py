@@ -122,21 +122,42 @@ def conditions(
 def _conditions(
     loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool
 ) -> Iterator[tuple[Any, ...]]:
-    lam, offset, eta = weights
-    reach, speed_squared = offset + lam * motion.l, _wave_speed_squared(loop, motion)
-    top_squared = tension(motion.l, motion.net, loop.hanging) / loop.rho
-    pull = loop.rho * speed_squared
-    ends = [_rate_at(loop, motion, lam, offset, end) for end in (0.0, 1.0)]
+    reach, speed_squared = weights.vessel + weights.cross * motion.l, _wave_speed_squared(loop, motion)
+    ends = [_rate_at(loop, motion, weights.cross, weights.vessel, end) for end in (0.0, 1.0)]
     tighter = float(ends[1].min() < ends[0].min())
-    rate = float(np.nan_to_num(proved).max())
-    carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
-    yield "wave", "v^2 < T_0/rho", motion.v**2, top_squared, "m2/s2", 0.0
+    state = State(motion.v, reach, speed_squared, tension(motion.l, motion.net, loop.hanging) / loop.rho)
+    wave, *others = sides(loop, weights, state, float(np.nan_to_num(proved).max()), vessel_moves)
+    yield wave
     yield "K0", "lam q/gam < sqrt(T/rho)", reach, np.sqrt(speed_squared), "m/s", 1.0
+    yield from others[:4]
+    yield "K5", "0 < th with M - th/2 N >= 0", 0.0, _lowered(np.minimum(*ends), proved), "1/s", tighter
+    yield from others[4:]
+
+
+class State(NamedTuple):
+    """What the winch does, as numbers, arrays or intervals: its speed v, lam (l + x0)/gam, T/rho at ROV and vessel."""
+
+    v: Real
+    reach: Real
+    speed_squared: Real
+    top_squared: Real
+
+
+def sides(
+    loop: Loop, weights: Weights, state: State, rate: Real, vessel_moves: bool
+) -> Iterator[tuple[str, str, Real, Real, str, float]]:
+    """The conditions with one number on each side: name, equation, left, right, unit, x/l; "<=" where equality holds.
+
+    Written once for what is sampled and for the intervals of the proof. K0 and K5, which hold for all x, are not here.
+    """
+    v, reach, speed_squared, top_squared = state
+    pull, eta = loop.rho * speed_squared, weights.boundary
+    carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
+    yield "wave", "v^2 < T_0/rho", v**2, top_squared, "m2/s2", 0.0
     yield "K1", "lam (l + x0)/gam <= T_l/(beta rho)", reach, speed_squared / loop.beta, "m/s", 1.0
     yield "K2", "lam (l + x0)/gam <= beta", reach, loop.beta, "m/s", 1.0
     yield "K3", "T_l/(2 beta) < eta k_a/gam", pull / (2.0 * loop.beta), eta * loop.k_a, "N s/m", 1.0
-    yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - motion.v, offset, "m/s", 0.0
-    yield "K5", "0 < th with M - th/2 N >= 0", 0.0, _lowered(np.minimum(*ends), proved), "1/s", tighter
+    yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - v, weights.vessel, "m/s", 0.0
     yield "K6", "th <= 2 (eta k_a - gam T_l/(2 beta))/(eta m)", rate, carried, "1/s", 1.0
     if loop.k_s is not None:
         yield "K6", "th <= k_s", rate, loop.k_s, "1/s", 1.0

@@ -1,19 +1,21 @@
-"""The conditions once more, proved instead of sampled: interval arithmetic over boxes of time, all x at once.
+"""The conditions proved instead of sampled: interval arithmetic over boxes of time, all x at once.
 
-Nothing here is shared with the search but the formula of the tension: the conditions are written anew from
-docs/certificates.md, and the winch laws are those of ``proof_motion.py``. Numbers of the scenario and of the
-certificate enter exactly as they are stored. In x every condition is a line, or a line minus a positive multiple of the
-square of one: it is least at an end of [0, l]. In t a box is halved until its intervals decide.
+Conditions with one number on each side are those of ``conditions.py``, over intervals; K0 and K5, which the search
+solves for a rate, are written from docs/certificates.md, and the winch laws are those of ``proof_motion.py``. Numbers
+of the scenario and of the certificate enter exactly as they are stored. In x every condition is a line, or a line minus
+a positive multiple of the square of one: it is least at an end of [0, l]. In t a box is halved until its intervals
+decide.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 from mpmath.ctx_iv import MPIntervalContext
 
+from umbilical.analysis.certificate.conditions import State, sides
 from umbilical.analysis.certificate.proof_motion import Motion, motion_over
 from umbilical.analysis.certificate.records import Proof, Weights
 from umbilical.analysis.certificate.setting import Loop
@@ -50,13 +52,11 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
     """
     ctx: Any = MPIntervalContext()
     ctx.prec = BITS
-    hung = loop.hanging_in(ctx.mpf)
-    numbers = {
-        name: ctx.mpf(value) for name, value in (loop._asdict() | weights._asdict()).items() if value is not None
-    }
+    exact: list[Any] = [[None if x is None else ctx.mpf(x) for x in of] for of in (loop, weights)]
+    loop, weights = Loop(*exact[0]), Weights(*exact[1])
     boxes, left_open = 0, []
     for begin, end, rate in zip(edges[:-1].tolist(), edges[1:].tolist(), rates.tolist(), strict=True):
-        count, name, where = _slab(ctx, numbers, hung, winch, (begin, end), rate, strict)
+        count, name, where = _slab(ctx, loop, weights, winch, (begin, end), rate, strict)
         boxes += count
         if name:
             left_open.append((name, *where))
@@ -64,12 +64,13 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
 
 
 class Box(NamedTuple):
-    """Numbers of loop and certificate, and what the winch does in a box of time: length, speed, jerk, and g - a.
+    """Loop, weights and rate, and what the winch does in a box of time: length, speed, jerk, and g - a.
 
     ``reach`` is lam (l + x0)/gam; ``pull_top`` and ``pull`` are the tension at both ends.
     """
 
-    n: Mapping[str, Interval]
+    loop: Loop
+    weights: Weights
     hanging: Hanging
     rate: Interval
     length: Interval
@@ -83,8 +84,8 @@ class Box(NamedTuple):
 
 def _slab(
     ctx: Any,
-    numbers: Mapping[str, Interval],
-    hung: Hanging,
+    loop: Loop,
+    weights: Weights,
     winch: Winch,
     slab: tuple[float, float],
     rate: float,
@@ -94,13 +95,13 @@ def _slab(
     its whole left undecided."""
     if not np.isfinite(rate):
         return 0, "K5", slab
-    waiting, count = [(*slab, 0, tuple(CONDITIONS))], 0
+    waiting, count = [(*slab, 0, NAMES)], 0
     while waiting:
         begin, end, depth, asked = waiting.pop()
         count += 1
-        box = _box(numbers, hung, motion_over(ctx, winch, begin, end), ctx.mpf(rate))
-        verdicts = {name: _verdict(name, box, strict) for name in asked}
-        undecided = tuple(name for name, verdict in verdicts.items() if verdict is not True)
+        box = _box(loop, weights, motion_over(ctx, winch, begin, end), ctx.mpf(rate))
+        verdicts = _verdicts(box, asked, strict)
+        undecided = tuple(name for name in asked if verdicts[name] is not True)
         if undecided:
             refuted = [name for name in undecided if verdicts[name] is False]
             if refuted or depth >= FEWEST or count > MOST:
@@ -110,79 +111,63 @@ def _slab(
     return count, "", slab
 
 
-def _box(n: Mapping[str, Interval], hung: Hanging, motion: Motion, rate: Interval) -> Box:
+def _box(loop: Loop, weights: Weights, motion: Motion, rate: Interval) -> Box:
     length, v, a, jerk = motion
-    net, reach = net_gravity(n["g"], a), n["vessel"] + n["cross"] * length
-    return Box(n, hung, rate, length, v, jerk, net, reach, tension(length, net, hung), tension(0, net, hung))
+    hung = loop.hanging_in(lambda number: number)
+    net, reach = net_gravity(loop.g, a), weights.vessel + weights.cross * length
+    ends = (tension(at, net, hung) for at in (length, 0))
+    return Box(loop, weights, hung, rate, length, v, jerk, net, reach, *ends)
 
 
-def _verdict(name: str, box: Box, strict: bool) -> bool | None:
-    """Whether a condition holds everywhere in a box; False if nowhere, None if the intervals cannot tell."""
-    above = name in STRICT or (strict and name == "K4")
-    values = list(CONDITIONS[name](box))
-    if any(value.b < 0 for value in values):
-        return False
-    return True if all(value.a > 0 if above else value.a >= 0 for value in values) else None
+def _verdicts(box: Box, asked: Collection[str], strict: bool) -> dict[str, bool | None]:
+    """Whether each condition holds everywhere in a box; False if nowhere, None if the intervals cannot tell."""
+    found: dict[str, bool | None] = {}
+    for name, above, value in _values(box, asked, strict):
+        holds = False if value.b < 0 else True if (value.a > 0 if above else value.a >= 0) else None
+        found[name] = False if False in (holds, found.get(name)) else None if found.get(name, True) is None else holds
+    return found
+
+
+def _values(b: Box, asked: Collection[str], strict: bool) -> Iterator[tuple[str, bool, Interval]]:
+    """Name, whether equality breaks it, and what must not be negative anywhere in the box."""
+    for name in asked:
+        if name in ALONG:
+            yield from ((name, name != "K5", value) for value in ALONG[name](b))
+    state = State(b.v, b.reach, b.pull / b.loop.rho, b.pull_top / b.loop.rho)
+    if not ALONG.keys() >= set(asked):
+        for name, equation, left, right, *_ in sides(b.loop, b.weights, state, b.rate, strict):
+            if name in asked:
+                yield name, "<=" not in equation, right - left
 
 
 def _weights(b: Box) -> Iterator[Interval]:
     """lam, eta and everything else that makes V a sum of squares; K0 then makes V1 + V2 one."""
-    yield from (b.n[name] for name in ("rho", "m", "beta", "k_a", "k_s", "vs", "cross", "boundary") if name in b.n)
-
-
-def _wave(b: Box) -> Iterator[Interval]:
-    yield b.pull
-    yield b.pull_top - b.n["rho"] * b.v**2
+    of = b.loop
+    yield from (x for x in (of.rho, of.m, of.beta, of.k_a, of.k_s, of.vs) if x is not None)
+    yield from (b.weights.cross, b.weights.boundary, b.pull)
 
 
 def _k0(b: Box) -> Iterator[Interval]:
-    yield from _least((b.pull_top, b.pull), (b.n["vessel"], b.reach), b.n["rho"])
-
-
-def _k1(b: Box) -> Iterator[Interval]:
-    yield b.pull - b.n["beta"] * b.n["rho"] * b.reach
-
-
-def _k2(b: Box) -> Iterator[Interval]:
-    yield b.n["beta"] - b.reach
-
-
-def _k3(b: Box) -> Iterator[Interval]:
-    yield 2 * b.n["beta"] * b.n["boundary"] * b.n["k_a"] - b.pull
-
-
-def _k4(b: Box) -> Iterator[Interval]:
-    yield b.v + b.n["vessel"]
+    yield from _least((b.pull_top, b.pull), (b.weights.vessel, b.reach), b.loop.rho)
 
 
 def _k5(b: Box) -> Iterator[Interval]:
     """The entries of M - th/2 N: A does not depend on x, B and C are lines; A, C and AC - B^2 must not be negative."""
-    n, rho, lam = b.n, b.n["rho"], b.n["cross"]
-    corner = n["c"] + rho * (lam - b.rate) / 2
+    rho, lam, vessel = b.loop.rho, b.weights.cross, b.weights.vessel
+    corner = b.loop.c + rho * (lam - b.rate) / 2
     yield corner
-    side = [(q * (n["c"] - b.rate * rho) - rho * b.v * lam) / 2 for q in (n["vessel"], b.reach)]
+    side = [(q * (b.loop.c - b.rate * rho) - rho * b.v * lam) / 2 for q in (vessel, b.reach)]
     far = [
         (fading_tension(lam - b.rate, s, b.net, b.jerk, b.hanging) + tension_gain(q, b.net, b.hanging)) / 2
-        for s, q in ((b.length, n["vessel"]), (0, b.reach))
+        for s, q in ((b.length, vessel), (0, b.reach))
     ]
     yield from far  # without them A = B = 0 would let any C pass
     yield from _least((corner * far[0], corner * far[1]), (side[0], side[1]), 1)
 
 
-def _k6(b: Box) -> Iterator[Interval]:
-    n = b.n
-    yield 2 * n["boundary"] * n["k_a"] - b.pull / n["beta"] - b.rate * n["boundary"] * n["m"]
-    if "k_s" in n:
-        yield n["k_s"] - b.rate
-
-
-CONDITIONS = {
-    "weights": _weights, "wave": _wave,
-    "K0": _k0, "K1": _k1, "K2": _k2, "K3": _k3, "K4": _k4, "K5": _k5, "K6": _k6,
-}  # fmt: skip
-"""What must not be negative anywhere; coefficients of polynomials in x, intervals in t."""
-STRICT = ("weights", "wave", "K0", "K3")
-"""Conditions that equality breaks."""
+ALONG = {"weights": _weights, "K0": _k0, "K5": _k5}
+"""Conditions for all x at once, as coefficients of polynomials in x, intervals in t."""
+NAMES = ("weights", "wave", "K0", "K1", "K2", "K3", "K4", "K5", "K6")
 
 
 def _least(ends: tuple[Interval, Interval], line: tuple[Interval, Interval], factor: Interval) -> Iterator[Interval]:
