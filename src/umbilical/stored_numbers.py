@@ -43,3 +43,5 @@ def wrong_times(data: xarray.Dataset, duration: float, *, over: bool) -> Iterato
         yield f"end_time = {end:g}: {data.attrs['status']}, and the scenario inside lasts {duration:g} s"
     elif (last > end * (1.0 + 1e-9)).any():
         yield f"time: goes on to {last[0]:g} s, and end_time is {end:g} s"
+    elif data.attrs["status"] == "DIVERGED" and (last > end * (1.0 - 1e-9)).any():
+        yield f"time: has a sample at {last[0]:g} s, the instant at which a diverged run has none any more"

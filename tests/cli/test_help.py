@@ -17,7 +17,7 @@ from umbilical.run import Status
 HEAVY = ("numba", "llvmlite", "numpy", "scipy", "xarray", "pandas", "matplotlib", "h5netcdf", "rich")
 COMMANDS = (
     "run", "show", "compare", "export", "plot", "animate", "certify", "reproduce", "sweep", "member", "tune", "verify",
-    "margins", "design", "operate", "lower", "presets", "schema", "doctor", "warm-up",
+    "margins", "design", "operate", "lower", "presets", "examples", "schema", "doctor", "warm-up",
 )  # fmt: skip
 
 

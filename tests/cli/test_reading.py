@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -107,12 +108,34 @@ def test_presets_are_listed_and_printed(umbilical):
     assert umbilical("presets", "paper-dead").out.startswith('extends = "paper"')
 
 
-def test_a_copied_preset_is_the_preset_and_is_not_overwritten(umbilical, tmp_path):
-    mine = tmp_path / "mine.toml"
+def test_a_copied_preset_is_the_preset_marked_as_a_copy_and_is_not_overwritten(umbilical, tmp_path):
+    mine, paper = tmp_path / "mine.toml", load("paper")
+    copied = paper.model_copy(update={"name": "mine", "description": f"Copied from paper. {paper.description}"})
     assert umbilical("presets", "--copy", "paper", mine).code == 0
-    assert load(mine) == load("paper")
+    assert load(mine) == copied
     assert umbilical("presets", "--copy", "paper-pd", mine).code == 4
-    assert load(mine) == load("paper")
+    assert load(mine) == copied
+
+
+def test_a_copy_names_a_schema_that_stands_beside_it_and_fits(umbilical, tmp_path):
+    mine = tmp_path / "mine.toml"
+    umbilical("presets", "--copy", "paper-dead", mine)
+    line = mine.read_text().splitlines()[0]
+    schema = json.loads((tmp_path / line.removeprefix("#:schema ")).read_text())
+    jsonschema = pytest.importorskip("jsonschema")
+    jsonschema.validate(tomllib.loads(mine.read_text()), schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({**tomllib.loads(mine.read_text()), "duratoin": 1.0}, schema)
+
+
+def test_examples_are_copied_and_stand_alone(umbilical, tmp_path):
+    listed = umbilical("examples").out
+    done = umbilical("examples", "--copy", tmp_path / "tries")
+    copied = {path.relative_to(tmp_path / "tries").as_posix() for path in (tmp_path / "tries").rglob("*.py")}
+    assert done.code == 0
+    assert "first_run.py" in copied
+    assert copied == {line.split()[0] for line in listed.splitlines() if line.split()[0].endswith(".py")}
+    assert umbilical("examples", "--copy", tmp_path / "tries").code == 4
 
 
 def test_schema_is_json(umbilical):

@@ -253,3 +253,8 @@ def test_several_at_once() -> None:
             observations, *_ = envs.step(envs.action_space.sample())
         assert np.isfinite(observations).all()
         envs.close()
+
+
+def test_a_scenario_beside_a_study_is_refused():
+    with pytest.raises(ScenarioError, match="none beside a study"):
+        gymnasium.make(TIP, scenario="paper", study="paper-robustness")

@@ -208,3 +208,17 @@ def test_assumed_numbers_are_marked() -> None:
         "control.allocation.rates", "control.allocation.leak", "control.allocation.initial", "faults.1.value",
     ):  # fmt: skip
         assert marks[key], key
+
+
+def test_what_an_extending_file_takes_over_is_marked(tmp_path: Path) -> None:
+    mine, paper = tmp_path / "mine.toml", load("paper")
+    mine.write_text('extends = "paper"\ncontrol.period = 0.0005\n', encoding="utf-8")
+    assert load(mine).description == f"Changed from paper. {paper.description}"
+    assert paper.assumed.keys() - load(mine).assumed.keys() == {"control.period"}  # whose reason was of another value
+    mine.write_text(mine.read_text(encoding="utf-8") + 'description = "Mine."\n')
+    assert load(mine).description == "Mine."
+
+
+def test_a_density_that_is_none_is_refused() -> None:
+    with pytest.raises(ScenarioError, match="line_density"):
+        load("paper", {"cable.line_density": 5e-324})

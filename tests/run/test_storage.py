@@ -42,7 +42,9 @@ def test_no_dimension_is_dropped_on_the_way(make_run, tmp_path, motors):
 
 
 def test_not_a_number_and_infinity_survive(make_run, tmp_path):
-    run = make_run(status=Status.DIVERGED, metrics={"tip_peak": np.inf, "tip_rms": np.nan})
+    run = make_run(
+        status=Status.DIVERGED, time=np.linspace(0.0, 0.9, 21), metrics={"tip_peak": np.inf, "tip_rms": np.nan}
+    )
     assert open_run(run.save(tmp_path / "a.nc")).data.identical(run.data)
 
 
@@ -86,9 +88,9 @@ def test_the_scenario_can_be_read_alone(run, stored):
 def test_never_overwrites_unasked(run, make_run, stored):
     before = stored.read_bytes()
     with pytest.raises(OutputError, match="exists already"):
-        make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.5, 21), end_time=0.5).save(stored)
+        make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.475, 21), end_time=0.5).save(stored)
     assert stored.read_bytes() == before
-    make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.5, 21), end_time=0.5).save(stored, force=True)
+    make_run(status=Status.DIVERGED, time=np.linspace(0.0, 0.475, 21), end_time=0.5).save(stored, force=True)
     assert open_run(stored).end_time == 0.5
 
 
@@ -277,4 +279,10 @@ def test_arrays_larger_than_the_machine_are_refused_before_they_are_made(tmp_pat
         file.create_variable("displacement", ("time", "sigma"), "f8", chunks=(1000, 1000))
     assert path.stat().st_size < 100_000
     with pytest.raises(FileError, match="its arrays take 800000 GB"):
+        open_run(path)
+
+
+def test_a_diverged_run_does_not_go_on_to_its_end(make_run, tmp_path):
+    make_run(status=Status.DIVERGED).save(path := tmp_path / "said.nc")
+    with pytest.raises(FileError, match="a diverged run has none"):
         open_run(path)

@@ -69,6 +69,7 @@ for command in (
     operating.lower,
     snapping.snap,
     listing.presets,
+    listing.examples,
     listing.schema,
     doctoring.doctor,
     warming.warm_up,
@@ -161,7 +162,7 @@ def _usage(error: Exception) -> str:
     if type(error).__name__ == "NoArgsIsHelpError" and context:
         return context.get_help()
     place = context.command_path if context else "umbilical"
-    text = getattr(error, "format_message", error.__str__)()
+    text = getattr(error, "format_message", error.__str__)().replace(": Value error, ", ": ")  # of pydantic in typer
     if found := _NO_CHOICE.search(text):
         text += _hint(found.group(1), re.findall("'([^']*)'", found.group(2)))
     return f"umbilical: {text}\nTry '{place} --help'."

@@ -12,7 +12,7 @@ from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Plot, Thrust, numbers
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.running import load_changed
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw, schema_beside
 
 if TYPE_CHECKING:
     from umbilical.synthesis.rounds import Limits
@@ -71,7 +71,9 @@ def design(
     if out:
         from umbilical import files
 
-        written["scenario"] = str(files.write(out, found.after.scenario.to_toml().encode(), force=force))
+        text = SCHEMA_LINE + found.after.scenario.to_toml()
+        written["scenario"] = str(files.write(out, text.encode(), force=force))
+        written |= schema_beside(out)
     written |= draw(found.plot, plot, force=force)
     return conclude_result(found, files=written, as_json=as_json)
 

@@ -1,7 +1,8 @@
-"""``umbilical presets`` and ``schema``: what comes with the package."""
+"""``umbilical presets``, ``examples`` and ``schema``: what comes with the package."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +10,7 @@ from typer import Argument, Option
 
 from umbilical.cli.options import Force
 from umbilical.cli.speech import say
+from umbilical.cli.targets import SCHEMA_LINE, schema_beside
 from umbilical.faces.text import table
 
 
@@ -33,11 +35,64 @@ def presets(
         from umbilical.studies.load import study_names
 
         source, target = copy
-        command = "sweep" if source in study_names() else "run"
-        written = files.write(target, _text(source).encode(), force=force)
-        say(f"copied: {written}\n  next: change it; `umbilical show {target}`; `umbilical {command} {target}`")
+        study = source in study_names()
+        text = _marked(_text(source), source, target)
+        written = files.write(target, (text if study else SCHEMA_LINE + text).encode(), force=force)
+        beside = {} if study else schema_beside(written)
+        lines = [f"copied: {written}", *(f"  {role} for editors: {path}" for role, path in beside.items())]
+        say("\n".join(lines))
+        say(f"  next: change it; `umbilical show {target}`; `umbilical {'sweep' if study else 'run'} {target}`")
     else:
         say(_text(name) if name else _descriptions())
+
+
+def _marked(text: str, source: str, target: Path) -> str:
+    """The text of a preset under the file's name; its description and reasons, which changes make untrue, marked."""
+    from umbilical.scenario.text import literal
+
+    head = f"# Copied from {source}: its description, and its reasons behind what is assumed, until you change them.\n"
+    text = text.replace(f'name = "{source}"', f"name = {literal(target.stem[:80])}", 1)
+    return head + re.sub(r'^description = ("""|")', rf"\g<0>Copied from {source}. ", text, count=1, flags=re.MULTILINE)
+
+
+def examples(
+    copy: Annotated[
+        Path | None, Option("--copy", metavar="DIR", help="Copy them to a folder of yours, made if need be.")
+    ] = None,
+    force: Force = False,
+) -> None:
+    """List or copy the example scripts in Python.
+
+    \b
+    examples
+      umbilical examples
+      umbilical examples --copy tries
+    """
+    from umbilical import files
+
+    found = {
+        path.relative_to(folder).as_posix(): path for folder in [_examples()] for path in sorted(folder.rglob("*.py"))
+    }
+    if copy is None:
+        say(table([(name, _purpose(path)) for name, path in found.items()]))
+        return
+    for name, path in found.items():
+        files.make_folder((copy / name).parent)
+        files.write(copy / name, path.read_bytes(), force=force)
+    say(f"copied: {len(found)} scripts to {copy}\n  next: python {copy / 'first_run.py'}")
+
+
+def _examples() -> Path:
+    """Where the scripts are: in the installed package, or beside its source."""
+    installed = Path(__file__).parents[1] / "examples"
+    return installed if installed.is_dir() else Path(__file__).parents[3] / "examples"
+
+
+def _purpose(path: Path) -> str:
+    """First line of a script's own words."""
+    from ast import get_docstring, parse
+
+    return (get_docstring(parse(path.read_text(encoding="utf-8"))) or "").partition("\n")[0]
 
 
 def _text(name: str) -> str:
@@ -63,13 +118,20 @@ def _first_sentence(text: str) -> str:
     return text.partition(" Source:")[0]
 
 
-def schema() -> None:
-    """Print the JSON Schema of scenario files, for editors.
+def schema(
+    out: Annotated[Path | None, Option("--out", metavar="FILE.json", help="Write it to a file instead.")] = None,
+    force: Force = False,
+) -> None:
+    """Print or write the JSON Schema of scenario files, with which editors check and complete them.
 
     \b
-    example
+    examples
+      umbilical schema --out scenario.schema.json
       umbilical schema > scenario.schema.json
+
+    A first line "#:schema ./scenario.schema.json" in a scenario names it; `presets --copy` writes both.
     """
+    from umbilical import files
     from umbilical.scenario.document import schema_text
 
-    say(schema_text())
+    say(f"schema: {files.write(out, schema_text().encode(), force=force)}" if out else schema_text())

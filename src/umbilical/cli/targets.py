@@ -50,3 +50,16 @@ def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
     if there and not force:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""
         raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")
+
+
+SCHEMA = "scenario.schema.json"
+SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
+"""First line of a scenario's file: where editors find its schema."""
+
+
+def schema_beside(path: Path) -> dict[str, str]:
+    """Write the schema of scenarios beside one, if there is no file of its name; what was written, by role."""
+    from umbilical.scenario.document import schema_text
+
+    schema = path.parent / SCHEMA
+    return {} if schema.exists() else {"schema": str(files.write(schema, schema_text().encode()))}

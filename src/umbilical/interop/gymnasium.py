@@ -77,8 +77,8 @@ class Tip(gymnasium.Env[Array, Array]):
     """Hold the ROV still, by the thrust of all motors or the voltage of each.
 
     Args:
-        scenario: a scenario, or what :func:`umbilical.load` takes. Its controller is not used, but for the motor loops
-            and the allocation that turn a thrust into voltages.
+        scenario: a scenario, or what :func:`umbilical.load` takes; ``paper`` if neither it nor a study is given. Its
+            controller is not used, but for the motor loops and the allocation that turn a thrust into voltages.
         step: how long an action is held, s, a multiple of ``control.period``.
         mode: ``thrust`` (one action, through the scenario's allocation and motor loops) or ``voltage`` (one per motor).
         privileged: observe the truth too; :data:`Umbilical/TipPrivileged-v0` sets it.
@@ -113,7 +113,7 @@ class Tip(gymnasium.Env[Array, Array]):
 
     def __init__(
         self,
-        scenario: Scenario | str = "paper",
+        scenario: Scenario | str | None = None,
         step: float = 0.1,
         mode: Literal["thrust", "voltage"] = "thrust",
         *,
@@ -125,6 +125,11 @@ class Tip(gymnasium.Env[Array, Array]):
         arm: str | None = None,
         render_mode: str | None = None,
     ) -> None:
+        if scenario is not None and study:
+            reason = "a study brings its own, of which every episode is a member"
+            raise ScenarioError(
+                [Problem("scenario", "given", "none beside a study", reason, "give one of them")], "environment"
+            )
         if arm is not None and not study:
             reason = "an arm is one of a study's"
             raise ScenarioError(
@@ -275,11 +280,11 @@ def _is_noisy(scenario: Scenario) -> bool:
     return any(sensor.noise > 0.0 or sensor.dropout > 0.0 for sensor in sensors)
 
 
-def _scenario(given: Scenario | str, draws: Draws | None, arm: int) -> Scenario:
+def _scenario(given: Scenario | str | None, draws: Draws | None, arm: int) -> Scenario:
     """The scenario before anything is drawn."""
     if draws is not None:
         return list(draws.undrawn())[arm]
-    return given if isinstance(given, Scenario) else load(given)
+    return given if isinstance(given, Scenario) else load(given or "paper")
 
 
 def _arm_number(study: Study, name: str | None) -> int:

@@ -59,7 +59,10 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
     10.0
     """
     origin = os.fspath(source)
-    data = PRESETS.extended(read(_text(origin), origin), origin)
+    own = read(_text(origin), origin)
+    data = PRESETS.extended(own, origin)
+    if origin not in preset_names() and "extends" in own and "description" not in own:
+        data["description"] = f"Changed from {own['extends']}. {data.get('description', '')}".rstrip()
     changed, lost = try_override(data, overrides or {})
     forget(changed, overrides or {})
     unread = read_files(changed, Path() if origin in preset_names() else Path(origin).parent)

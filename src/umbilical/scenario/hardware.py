@@ -13,7 +13,7 @@ class Cable(Record):
     """The umbilical: a string of line density rho under the tension of what hangs below each point."""
 
     line_density: float = quantity(
-        "line_density", gt=0.0, le=1e4, reason="waves travel at sqrt(T/rho)", cure="kg per metre, in air"
+        "line_density", ge=1e-6, le=1e4, reason="waves travel at sqrt(T/rho)", cure="kg per metre, in air"
     )
     damping: float = quantity("cable_damping", ge=0.0, reason="negative damping feeds the cable", cure="use 0 or more")
     wet_line_density: float | None = quantity(
