@@ -20,6 +20,8 @@ import umbilical
 
 MARGIN = 10.0
 
+MANUFACTURED = ("rope, manufactured, l growing", "rope, manufactured, l shrinking")
+
 
 class Edit(NamedTuple):
     """A line of a file of the package, what it is changed to, and the cases that must notice."""
@@ -35,7 +37,31 @@ EDITS = {
         "plant/rope/forces.py",
         "more = (total - bracket) * along - total * across",
         "more = 0.0 * bracket",
-        ("rope, taut heave",),
+        ("rope, taut heave", *MANUFACTURED),
+    ),
+    "the water that slides along the rope": Edit(
+        "plant/rope/forces.py",
+        "turn, bend = 2.0 * slide",
+        "turn, bend = 1.0 * slide",
+        MANUFACTURED,
+    ),
+    "what enters with the rope that is paid out": Edit(
+        "plant/rope/rates.py",
+        "scale = 2.0 * n * LIFT * speed / length",
+        "scale = 0.0 * speed / length",
+        ("rope, manufactured, l growing",),
+    ),
+    "the side that the rope's material comes from": Edit(
+        "plant/rope/rates.py",
+        "if speed > 0.0 else (4, f - 1, f)",
+        "if speed < 0.0 else (4, f - 1, f)",
+        MANUFACTURED,
+    ),
+    "a body braked by slack rope": Edit(
+        "plant/rope/ends.py",
+        "if stretch[4, last] > 1.0 else 0.0",
+        "if stretch[4, last] > 0.0 else 0.0",
+        ("rope, free flight over slack",),
     ),
     "transport in the flux between elements": Edit(
         "plant/cable.py",

@@ -75,7 +75,7 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),
     "gravity of another planet": (
         broken_rope.gravity_of_another_planet,
-        ("rope, elastic catenary", "rope, pendulum*", "rope, tow"),
+        ("rope, elastic catenary", "rope, pendulum*", "rope, tow", "rope, free*", "rope, manufactured*"),
     ),
     "half the body of the rope": (
         broken_rope.half_the_body,
@@ -89,6 +89,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
         broken_rope.winch_that_runs_backwards,
         ("rope, paying out", "rope, hauling in", "rope, momentum*"),
     ),
+    "half the cable's inertia of the rope": (broken_rope.half_the_cable, ("rope, crosscheck",)),
+    "a winch held over each step of the rope": (broken_rope.stages_at_the_start, ("rope, order in time",)),
     "three times the heave": (broken_rope.three_times_the_heave, ("rope, irregular*",)),
     "added mass that slides along": (
         broken.added_mass_that_slides_along,

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from umbilical.plant.rope import model, outside
+from umbilical.plant.rope import assemble, model, outside
 from umbilical.plant.rope.records import Rope
 from umbilical.plant.seaway import Sheave
 from umbilical.scenario.environment import Environment
+from umbilical.verify import rope_manufactured
 
 Break = Callable[[pytest.MonkeyPatch], None]
 
@@ -26,7 +27,8 @@ def another_rope(change: Callable[[Rope], dict[str, Any]]) -> Break:
             rope = right(*arguments, **named)
             return rope._replace(**change(rope))
 
-        patch.setattr(model, "make_rope", wrong)
+        for user in (model, assemble, rope_manufactured):
+            patch.setattr(user, "make_rope", wrong)
 
     return apply
 
@@ -49,6 +51,16 @@ def winch_that_runs_backwards(patch: pytest.MonkeyPatch) -> None:
         found = right(self, start, dt)
         found["payout_speed"] *= -1.0
         return found
+
+    patch.setattr(model.RopeModel, "_outside", wrong)
+
+
+def stages_at_the_start(patch: pytest.MonkeyPatch) -> None:
+    """Winch and vessel held over each step."""
+    right = model.RopeModel._outside
+
+    def wrong(self: model.RopeModel, start: np.ndarray, dt: float) -> Any:
+        return right(self, start, 0.0)
 
     patch.setattr(model.RopeModel, "_outside", wrong)
 

@@ -7,9 +7,13 @@ from functools import partial
 
 import numpy as np
 
+from umbilical.engine.simulate import simulate
+from umbilical.library import load
 from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, fixed
 from umbilical.plant.rope.statics import put_shape
-from umbilical.verify.cases import Case, Check, close, each_close, small
+from umbilical.run import Status
+from umbilical.verify.cases import Case, CaseError, Check, close, each_close, small
+from umbilical.verify.crosscheck import PEAKS, SOURCE
 from umbilical.verify.references import rope as reference
 from umbilical.verify.references.sea import Hanging, heave_of_masses
 
@@ -233,7 +237,31 @@ def _force(model: RopeModel) -> np.ndarray:
     return -model.top_pull + speed * model.rope.density * passing - np.array([0.0, 0.0, weight])
 
 
+def flight() -> Iterator[Check]:
+    """A body is thrown up, its cable goes slack, and it is pushed down: a slack cable neither pulls nor brakes."""
+    model = RopeModel(CableData(2e7, 3.0, 3.0 * G), BodyData(500.0, 500.0 * G), fixed(100.0))
+    start = float(model.body_position[2])
+    model.state.body[0] = (0.0, 0.0, 2.0)
+    model.step(0.1)
+    model.step(0.1, force=(0.0, 0.0, -12e3))
+    yield close("velocity after 0.2 s, m/s", model.body_velocity[2], 2.0 - 0.2 * G - 2.4, 1e-9, "free flight")
+    height = 0.4 - 0.02 * G - 0.12
+    yield close("height after 0.2 s, m", float(model.body_position[2]) - start, height, 1e-9, "free flight")
+
+
+def crosscheck() -> Iterator[Check]:
+    """The peak that two codes of the string agree on, of the rope with all its motion in space."""
+    run = simulate(load("crosscheck-none", {"model": "rope", "rope.axial_stiffness": 5e8}))
+    if run.status is not Status.COMPLETED:
+        raise CaseError(run.reason)
+    yield close(
+        "peak of |y(l,t)|, m", run.metrics["tip_peak"], PEAKS["crosscheck-none"], 1e-3, "EA 5e8, printed digits"
+    )
+
+
 CASES = (
+    Case("rope, crosscheck", "two codes of the string", SOURCE, crosscheck),
+    Case("rope, free flight over slack", "closed form", "Newton", flight),
     Case("rope, elastic catenary", "closed form", HUNG, catenary),
     Case("rope, modes of the hanging cable", "shooting; b tan b = rho l/m", COMPUTED, modes),
     Case("rope, pendulum of 60 degrees", "elliptic integral", "textbook", pendulum),

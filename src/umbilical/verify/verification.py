@@ -23,6 +23,7 @@ from umbilical.verify import (
     observers,
     power_balance,
     rope,
+    rope_manufactured,
     rope_waves,
     sea,
     static_deflection,
@@ -46,7 +47,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Invariance": invariance.CASES,
     "Sea and heave": sea.CASES,
     "String in water": (*water.CASES, *water_pairs.CASES),
-    "Rope": (*rope.CASES, *rope_waves.CASES),
+    "Rope": (*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES),
 }
 """Every case, in the order of the table."""
 
