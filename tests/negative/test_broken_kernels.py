@@ -46,9 +46,9 @@ EDITS = {
         MANUFACTURED,
     ),
     "what enters with the rope that is paid out": Edit(
-        "plant/rope/rates.py",
-        "scale = 2.0 * n * LIFT * speed / length",
-        "scale = 0.0 * speed / length",
+        "plant/rope/ends.py",
+        "per = (1.0 + size / rope.stiffness) / size",
+        "per = 1.0 / size",
         ("rope, manufactured, l growing",),
     ),
     "the side that the rope's material comes from": Edit(
