@@ -27,7 +27,7 @@ def test_one_key_takes_a_scenario_of_the_string_to_the_rope(name: str) -> None:
     for metric in ("tip_peak", "tip_rms"):
         assert rope.metrics[metric] == pytest.approx(string.metrics[metric], rel=1e-3)
     assert rope.metrics["energy_balance_residual"] < 1e-6
-    assert any("rope.axial_stiffness" in notice and "assumed" in notice for notice in rope.notices)
+    assert any("cable.axial_stiffness" in notice and "assumed" in notice for notice in rope.notices)
 
 
 def test_the_plane_is_turned_with_the_loads() -> None:

@@ -142,7 +142,7 @@ def test_a_trial_is_the_built_in_run():
 def test_picture_of_the_margins():
     figure = plot_margins(margins(RINGDOWN.replace({"control.law.slope_gain": 5.0}), [100.0, 400.0]))
     assert "not stable" in str(figure.get_suptitle())
-    assert len(figure.axes) == 4
+    assert len(figure.axes) == 5  # four panels and the bar of frequencies
 
 
 def test_margins_as_text_name_the_worst_margin_and_three_modes(umbilical_command):

@@ -216,7 +216,7 @@ def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.nd
     >>> t = np.linspace(0.0, 20.0, 201)
     >>> rough = np.sin(t) + 0.1 * np.random.default_rng(1).standard_normal(t.size)
     >>> smooth = without_noise(t, rough, 0.1)
-    >>> bool(np.std(smooth - np.sin(t)) < 0.05)
+    >>> bool(np.std(smooth - np.sin(t)) < 0.06)
     True
     """
     from scipy.interpolate import make_smoothing_spline

@@ -12,11 +12,14 @@ from umbilical.scenario import Scenario
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Motor
+from umbilical.scenario.rope import Rope
 
 LARGE = 2e8
 """Bytes of a result from which its size is told."""
 _ALONG, _OTHERS, _EACH_MOTOR = 3, 50, 10
 """Numbers of a sample: fields along the cable, channels of time alone, channels of a motor."""
+_ALONG_ROPE = 7
+"""Of the rope: place in three directions, tension, and what the string has."""
 _COPIES = 3.5
 """Of every stored number, while a result is made and written: log, channels, file."""
 
@@ -28,7 +31,8 @@ def result_size(scenario: Scenario) -> float:
     >>> round(result_size(umbilical.load("paper")) / 1e6, 1)
     6.7
     """
-    numbers = _ALONG * (4 * scenario.grid.elements + 1) + _OTHERS + _EACH_MOTOR * len(scenario.motors)
+    along, grid = (_ALONG_ROPE, scenario.rope or Rope()) if scenario.model == "rope" else (_ALONG, scenario.grid)
+    numbers = along * (4 * grid.elements + 1) + _OTHERS + _EACH_MOTOR * len(scenario.motors)
     return 8.0 * numbers * (scenario.duration / scenario.output.interval + 1.0)
 
 
@@ -54,7 +58,7 @@ def check_memory(scenario: Scenario) -> None:
             amount(scenario.output.interval, "s"),
             f"{machine.in_words(there)} of memory on this machine, not {machine.in_words(need)}",
             "every stored sample is in memory until the result is written",
-            f"an interval above {longest:.3g} s, or fewer grid.elements",
+            f"an interval above {longest:.3g} s, or fewer {'rope' if scenario.model == 'rope' else 'grid'}.elements",
         )
         raise ScenarioError([problem], scenario.name)
 
