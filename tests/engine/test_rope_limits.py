@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from umbilical import Run, Status
@@ -60,7 +60,7 @@ def between(low: float, high: float) -> st.SearchStrategy[float]:
 
 
 @pytest.mark.slow
-@settings(max_examples=15, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, deadline=None, derandomize=True)
 @given(
     ends=st.tuples(between(20.0, 400.0), between(20.0, 400.0)), heave=between(0.0, 4.0), period=between(2.0, 12.0),
     current=between(-2.0, 2.0), mass=between(20.0, 2000.0), stiffness=between(3e5, 1e8), elements=st.integers(2, 12),
