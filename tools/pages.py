@@ -1,8 +1,9 @@
 """Run what stands in a page of the documentation, block after block, in a folder of its own.
 
-    .venv/bin/python tools/pages.py docs/tutorial-first.md --into /tmp/first
+    .venv/bin/python tools/pages.py docs/tutorial-own-law.md --into out/own-law
 
-The tests run every page this way and the site takes the tutorials' pictures from it. Of a block's language:
+Tests run the pages of ``COMPLETE`` in tests/contract/test_docs.py this way, and the Python of all others. Of a block's
+language:
 
 - ``toml``, ``python`` and ``csv`` whose first line is ``# name.ext``: the file of that name (csv: without that line);
 - ``python`` without a name: executed, all of a page in one namespace;

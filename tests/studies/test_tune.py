@@ -133,10 +133,14 @@ def test_gains_that_are_refused_are_no_answer():
 def test_the_patch_is_the_scenario_that_was_tuned(tmp_path, changes):
     """The study's own changes are in it, and those of the arm."""
     study = load_study("gain-tuning").replace({"arms.1.changes": changes, "tuning.gains": GAIN})
-    (tmp_path / "tuned.toml").write_text(tune.to_patch(study, {"control.disturbance_observer.gain": 2.5}))
+    patch = tune.to_patch(study, {"control.disturbance_observer.gain": 2.5})
+    (tmp_path / "tuned.toml").write_text(patch)
     assert study.changes
+    whole = "control.slope_observer" in changes  # no patch can take a section away
+    description = ("" if whole else "Changed from paper. ") + load("paper").description
     expected = {**study.changes, **changes, "control.disturbance_observer.gain": 2.5, "name": "paper-tuned"}
-    assert load(tmp_path / "tuned.toml") == load("paper", expected)
+    assert load(tmp_path / "tuned.toml") == load("paper", {**expected, "description": description})
+    assert ("extends" in patch) is not whole
 
 
 def test_a_patch_of_a_preset_says_only_what_differs(tmp_path):

@@ -218,6 +218,8 @@ def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.nd
     >>> smooth = without_noise(t, rough, 0.1)
     >>> bool(np.std(smooth - np.sin(t)) < 0.06)
     True
+    >>> without_noise(t, rough, 1e-15) is rough
+    True
     """
     from scipy.interpolate import make_smoothing_spline
     from scipy.optimize import brentq
@@ -229,7 +231,13 @@ def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.nd
     def smoothed(weight: float) -> np.ndarray:
         return make_smoothing_spline(count, values, lam=10.0**weight)(count)
 
-    weight: Any = brentq(lambda w: np.sqrt(np.mean((values - smoothed(w)) ** 2)) - noise, *_WEIGHTS, xtol=1e-2)
+    def excess(weight: float) -> float:
+        return float(np.sqrt(np.mean((values - smoothed(weight)) ** 2))) - noise
+
+    stiffest = _WEIGHTS[1]
+    if excess(_WEIGHTS[0]) >= 0.0:  # noise within round-off of the values: nothing to take off
+        return values
+    weight: Any = brentq(excess, *_WEIGHTS, xtol=1e-2) if excess(stiffest) > 0.0 else stiffest
     return smoothed(float(weight))
 
 
