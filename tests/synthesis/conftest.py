@@ -1,4 +1,4 @@
-"""Searches of these tests are short: what they show does not need the last percent."""
+"""Searches of the default tests are short: what they show does not need the last percent. The slow ones are whole."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import pytest
 
 
 @pytest.fixture(autouse=True)
-def few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+def few_steps(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Random steps after the evolution."""
-    monkeypatch.setattr("umbilical.synthesis.search.LOCAL_STEPS", 150)
+    if "slow" not in request.keywords:
+        monkeypatch.setattr("umbilical.synthesis.search.LOCAL_STEPS", 150)
