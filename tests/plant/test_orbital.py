@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -101,6 +102,7 @@ def test_a_string_feels_it_at_its_nodes() -> None:
     np.testing.assert_allclose(to_nodal(flow.rate[None])[0, :20], waves[:, 1], atol=0.006)
 
 
+@pytest.mark.skipif(os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="45 s of a run take minutes as plain Python")
 def test_the_balance_of_powers_closes_in_waves() -> None:
     run = simulate(string().replace({"duration": 45.0, "grid.elements": 24}))
     assert run.metrics["energy_balance_residual"] < 2e-4
