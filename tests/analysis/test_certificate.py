@@ -138,6 +138,7 @@ def test_the_cure_never_asks_for_what_is_there(slope_gain: float) -> None:
     assert "0.1% of each bound left free" in certificate.cures[0].bound
 
 
+@pytest.mark.slow
 def test_across_the_edge_what_holds_is_what_is_proved() -> None:
     """The jerk of the payout of 'paper': samples decay a little earlier than the proof, and the proof decides."""
     verdicts = []

@@ -84,6 +84,7 @@ def test_a_ceiling_is_kept_and_costs_something():
     assert second.reflection > first.reflection
 
 
+@pytest.mark.slow
 def test_effort_orders_gains_as_simulations_do():
     """Softer motor loops and a smaller jump of the commanded thrust need less voltage."""
     hard = {"control.law.slope_gain": 10.0, "control.law.damping_gain": 550.0, **SLOW_SLOPE}

@@ -129,6 +129,7 @@ THREE = [
 SLOW = {"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0}
 
 
+@pytest.mark.slow
 def test_a_search_keeps_a_ceiling_of_noise_pays_for_it_and_finds_the_least():
     noisy = umbilical.load("ringdown", NOISE | SLOW)
     free = Task(noisy, THREE, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
