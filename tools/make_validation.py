@@ -13,7 +13,7 @@ from pathlib import Path
 
 from umbilical.cli.progress import bar
 from umbilical.plots import plot_convergence, save_figure
-from umbilical.verify import Verification, verify_all
+from umbilical.verify import Verification, verify_all, water_response
 from umbilical.verify.cases import Check, Result, worst_ratio
 from umbilical.verify.page import numbers
 
@@ -27,6 +27,7 @@ def text(found: Verification) -> str:
     """The page: what stands in make_validation.md, with headline and tables in their places."""
     note = "<!-- Written by tools/make_validation.py; edit its text in tools/make_validation.md. -->"
     body = TEXT.read_text(encoding="utf-8").replace("{headline}", found.headline).replace("{picture}", PICTURE)
+    body = body.replace("{drag}", water_response.table())
     title, _, rest = body.replace("{tables}", tables(found)).partition("\n")
     return f"{title}\n\n{note}\n{rest}"
 

@@ -115,6 +115,8 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
         another_scenario(broken.drag_by_the_square_of_the_diameter),
         ("string in water, diameter*",),
     ),
+    "drag linearised once": (broken.drag_linearised_once, ("string in water, shaken in a*",)),
+    "twice the drag": (another_scenario(broken.twice_the_drag), ("string in water, shaken*",)),
     "a force nobody ordered, in water": (UNORDERED, ("string in water, mirror*", "string in water, superposition")),
     "a ROV that depends on the grid": (another_scenario(broken.a_rov_that_depends_on_the_grid), ("refinement",)),
 }

@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.scenarios import sine
 from umbilical import Scenario
+from umbilical.analysis import impedance
 from umbilical.control.allocation import adaptive
 from umbilical.control.motor import backstepping
 from umbilical.control.motor import disturbance as of_motor
@@ -266,3 +267,16 @@ def less_displaced_by_the_rov(scenario: Scenario) -> Mapping[str, Any]:
 def drag_by_the_square_of_the_diameter(scenario: Scenario) -> Mapping[str, Any]:
     water = scenario.cable.water
     return {"cable.water.normal_drag": water.normal_drag * water.diameter / 0.03} if water else {}
+
+
+def drag_linearised_once(patch: pytest.MonkeyPatch) -> None:
+    """k |u| in place of its slope 2 k |u|."""
+    right = impedance.dampings
+    patch.setattr(impedance, "dampings", lambda *arguments: [0.5 * found for found in right(*arguments)])
+
+
+def twice_the_drag(scenario: Scenario) -> Mapping[str, Any]:
+    """Of cable and ROV."""
+    cable, payload = scenario.cable.water, scenario.payload.water
+    found = {"cable.water.normal_drag": 2.0 * cable.normal_drag} if cable else {}
+    return found | ({"payload.water.quadratic_drag": 2.0 * payload.quadratic_drag} if payload else {})

@@ -30,6 +30,7 @@ from umbilical.verify import (
     tip_damper,
     water,
     water_pairs,
+    water_response,
 )
 from umbilical.verify.cases import Case, Check, Result
 
@@ -46,7 +47,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Whole loop": (*crosscheck.CASES, *cascade.CASES),
     "Invariance": invariance.CASES,
     "Sea and heave": sea.CASES,
-    "String in water": (*water.CASES, *water_pairs.CASES),
+    "String in water": (*water.CASES, *water_pairs.CASES, *water_response.CASES),
     "Rope": (*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES),
 }
 """Every case, in the order of the table."""
