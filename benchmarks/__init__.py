@@ -1,4 +1,4 @@
-"""How fast the paper's 50 s run on this machine, and against what. Times are measured, never asserted."""
+"""How fast string and rope run on this machine, and against what. Times are measured, never asserted."""
 
 from benchmarks.measure import Bench, Row, measure_all
 

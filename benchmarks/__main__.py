@@ -1,7 +1,9 @@
 """``python3 do.py bench``: measure how long the paper's 50 s take here.
 
-Rows: the compiled loop and its parts, the Python loop, a plain numpy + scipy script of the same system, and a study of
-a thousand such runs. ``--members 10000`` says what each costs of 10, 100, 1000 and 10000, and memory: some ten minutes.
+Rows: the compiled loop and its parts, the same loop in C by hand, the Python loop, a plain numpy + scipy script of the
+same system, and a study of a thousand such runs; the rope in a sea with control, and beside MoorDyn. C needs a
+compiler, the last one the package moordyn; without them their rows are left out. ``--members 10000`` says what each
+costs of 10, 100, 1000 and 10000, and memory: some ten minutes.
 """
 
 from __future__ import annotations

@@ -12,7 +12,9 @@ from statistics import median
 from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
+from benchmarks.by_hand import c_rows
 from benchmarks.machine import machine, peak_of_children
+from benchmarks.rope import rope_rows
 from benchmarks.rows import Row
 from benchmarks.study import memory_row, study_rows
 
@@ -72,7 +74,7 @@ def measure_all(
     # Processes come first: what they need of memory is read from this process's children, while it is still small.
     rows = _processes(cold) + ([memory_row(members)] if members else [])
     progress(0.2)
-    rows = [*_compiled(repeat, progress), *_others(members), *rows]
+    rows = [*_compiled(repeat, progress), *c_rows(repeat), *_others(members), *rope_rows(repeat), *rows]
     progress(1.0)
     return Bench(machine(), tuple(rows))
 

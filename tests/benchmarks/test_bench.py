@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from benchmarks import measure
+from benchmarks import by_hand, measure, rope
 from benchmarks.measure import Row, measure_all
 from umbilical import load, simulate
 from umbilical.verify.references import paper as reference
@@ -38,6 +38,41 @@ def test_another_system_would_be_noticed(ours, monkeypatch, name, value):
     assert not agree(reference.displacement(times), displacement)
 
 
+needs_compiler = pytest.mark.skipif(by_hand.compiler() is None, reason="no C compiler")
+
+
+@needs_compiler
+def test_the_program_in_c_is_the_same_system(ours, tmp_path):
+    """As far as second order on 100 intervals goes: within 1 % of the peak, each second."""
+    times, displacement = ours
+    tip = by_hand.run(by_hand.build(tmp_path))[1]
+    mine = np.interp(np.arange(5.0), times, displacement[:, -1])
+    assert np.abs(tip[:5] - mine).max() < 0.01 * np.abs(mine).max()
+
+
+@pytest.mark.slow
+@needs_compiler
+@pytest.mark.parametrize(("said", "instead"), [("BETA = 0.01", "BETA = 1.0"), ("K_S = 5.0", "K_S = 2.5")])
+def test_another_system_in_c_would_be_noticed(ours, tmp_path, monkeypatch, said, instead):
+    text = by_hand.SOURCE.read_text()
+    assert said in text
+    (tmp_path / "other.c").write_text(text.replace(said, instead))
+    monkeypatch.setattr(by_hand, "SOURCE", tmp_path / "other.c")
+    with pytest.raises(AssertionError):
+        test_the_program_in_c_is_the_same_system(ours, tmp_path)
+
+
+@pytest.mark.slow
+def test_moordyn_swings_as_the_rope_does():
+    """What the row of equal accuracy asks of both: the same physics in the limit, each on its own grids."""
+    pytest.importorskip("moordyn")
+    exact = rope.ours(rope.FINE)
+    mine, coarse, fine = rope.ours(4).off(exact), rope.theirs(15).off(exact), rope.theirs(50).off(exact)
+    assert mine[0] < rope.ENOUGH
+    assert fine[0] < 0.15 * coarse[0]
+    assert fine[0] < rope.ENOUGH / 3.0
+
+
 def test_parts_add_up_to_the_loop():
     times = {name: {"loop_s": 1.0 + k, "outside_s": 0.5} for k, name in enumerate(measure.VARIANTS)}
     assert sum(measure._parts(times).values()) == pytest.approx(times["full"]["loop_s"] + times["full"]["outside_s"])
@@ -49,6 +84,7 @@ def test_every_row_is_measured():
     assert {row.name.strip() for row in found.rows} >= {
         "compiled loop, 50 s",
         "Python loop, 50 s",
+        "rope, 1000 m, control at 5 ms, 60 s",
         "numpy + scipy solve_ivp, 50 s",
         "umbilical run paper --json",
         "umbilical --help",

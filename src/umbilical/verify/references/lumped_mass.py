@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -54,22 +55,34 @@ RK4   tScheme
 """
 
 _SCRIPT = """
-import json, sys, moordyn
+import json, sys, time, moordyn
 task = json.load(open(sys.argv[1]))
-system = moordyn.Create(task["input"])
-if moordyn.Init(system, [0.0] * 3, [0.0] * 3) != 0:
+system, still = moordyn.Create(task["input"]), [0.0] * 3
+moordyn.SetVerbosity(system, moordyn.LEVEL_ERR)
+if moordyn.Init(system, task["place"][0], still) != 0:
     raise SystemExit("MoorDyn did not start")
-rov, t, step, tip = moordyn.GetPoint(system, 2), 0.0, task["step"], []
+body, line, t, step, found = moordyn.GetPoint(system, 2), moordyn.GetLine(system, 1), 0.0, task["step"], []
 for _ in range(task["settling"]):
-    moordyn.Step(system, [0.0] * 3, [0.0] * 3, t, step)
+    moordyn.Step(system, task["place"][0], still, t, step)
     t += step
-for place, speed in zip(task["vessel"], task["velocity"]):
-    tip.append(moordyn.GetPointPos(rov)[0])
-    moordyn.Step(system, [place, 0.0, 0.0], [speed, 0.0, 0.0], t, step)
+begun = time.perf_counter()
+for place, speed in zip(task["place"], task["velocity"]):
+    found.append((*moordyn.GetPointPos(body), moordyn.GetLineFairTen(line)))
+    moordyn.Step(system, place, speed, t, step)
     t += step
+seconds = time.perf_counter() - begun
 moordyn.Close(system)
-json.dump(tip, open(task["output"], "w"))
+json.dump({"seconds": seconds, "found": found}, open(task["output"], "w"))
 """
+
+
+class Moved(NamedTuple):
+    """What MoorDyn gave at each instant at which the vessel's motion was: place of the body, m, shape (instants, 3);
+    tension in the last segment below the vessel, N; and the seconds it took, the settling left out."""
+
+    place: np.ndarray
+    tension: np.ndarray
+    seconds: float
 
 
 def tip(string: HangingString, segments: int, vessel: np.ndarray, velocity: np.ndarray) -> np.ndarray:
@@ -84,19 +97,37 @@ def tip(string: HangingString, segments: int, vessel: np.ndarray, velocity: np.n
     Raises:
         CaseError: MoorDyn failed, or what it gave is not finite.
     """
+    still = np.zeros_like(vessel)
+    place, speed = (np.stack([part, still, still], axis=1) for part in (vessel, velocity))
+    return move(_input(string, segments), place, speed, STEP).place[:, 0]
+
+
+def move(text: str, place: np.ndarray, velocity: np.ndarray, step: float) -> Moved:
+    """Move the vessel, point 1 of the input ``text``, after it hung still; point 2 is the body, line 1 the cable.
+
+    Args:
+        text: MoorDyn's input file.
+        place, velocity: of the vessel, m and m/s, shape (instants, 3); between two instants MoorDyn goes on with the
+            velocity of the first.
+        step: seconds between two instants.
+
+    Raises:
+        CaseError: MoorDyn failed, or what it gave is not finite.
+    """
     with tempfile.TemporaryDirectory(prefix="umbilical-moordyn-") as name:
         folder = Path(name)
-        (folder / "cable.txt").write_text(_input(string, segments))
+        (folder / "cable.txt").write_text(text)
         task = {
-            "input": str(folder / "cable.txt"), "output": str(folder / "tip.json"), "step": STEP,
-            "settling": round(SETTLING / STEP), "vessel": vessel.tolist(), "velocity": velocity.tolist(),
+            "input": str(folder / "cable.txt"), "output": str(folder / "moved.json"), "step": step,
+            "settling": round(SETTLING / step), "place": place.tolist(), "velocity": velocity.tolist(),
         }  # fmt: skip
         (folder / "task.json").write_text(json.dumps(task))
         _run([sys.executable, "-c", _SCRIPT, str(folder / "task.json")], folder)
-        found = np.array(json.loads((folder / "tip.json").read_text()))
+        given = json.loads((folder / "moved.json").read_text())
+    found = np.array(given["found"])
     if not np.isfinite(found).all():
         raise CaseError("MoorDyn's answer is not finite")
-    return found
+    return Moved(found[:, :3], found[:, 3], given["seconds"])
 
 
 def _input(string: HangingString, segments: int) -> str:
@@ -118,5 +149,5 @@ def _run(command: list[str], folder: Path) -> None:
         done = subprocess.run(command, cwd=folder, capture_output=True, timeout=LIMIT, check=False)
     except subprocess.TimeoutExpired:
         raise CaseError(f"MoorDyn took more than {LIMIT:g} s") from None
-    if done.returncode or not (folder / "tip.json").exists():
+    if done.returncode or not (folder / "moved.json").exists():
         raise CaseError(f"MoorDyn failed: {done.stderr.decode(errors='replace').strip()[-200:]}")
