@@ -49,6 +49,8 @@ PARAMETERS: dict[str, Quantity] = {
     "body_linear_drag":    Quantity("N s/m", "D_l", "drag of the ROV over its speed through the water"),
     "body_quadratic_drag": Quantity("N s2/m2", "D_q", "drag of the ROV over the square of its speed through the water"),
     "body_vertical_drag":  Quantity("N s2/m2", "", "drag of the ROV along the cable over the square of the speed"),
+    "body_across_added_mass": Quantity("kg", "", "added mass of the ROV in the direction y of the rope; left out, as along x"),
+    "body_across_drag":    Quantity("N s2/m2", "", "drag of the ROV in the direction y of the rope over the square of the speed; left out, as along x"),
     "equilibrium_tip":     Quantity("m", "", "displacement at which the thrusters hold the ROV at the start; left out it is free"),
     # winch
     "length":              Quantity("m", "l", "cable length paid out", "Table 1"),
@@ -131,16 +133,11 @@ PARAMETERS: dict[str, Quantity] = {
     "root_width":          Quantity("rad2/s2", "s", "softening of the signed root of the demand"),
     # rope
     "axial_stiffness":     Quantity("N", "EA", "force over strain of the cable"),
-    "line_weight":         Quantity("N/m", "w", "weight of a metre of cable in water; negative floats"),
     "cable_diameter":      Quantity("m", "d", "diameter of the cable"),
     "normal_drag":         Quantity("1", "C_{dn}", "drag coefficient across the cable"),
     "tangential_drag":     Quantity("1", "C_{dt}", "drag coefficient along the cable, over its circumference"),
     "added_mass":          Quantity("1", "C_a", "added mass across the cable over the displaced water"),
-    "body_added_mass":     Quantity("kg", "A", "added mass of the body along x, y, z"),
-    "body_drag":           Quantity("N s2/m2", "D_q", "drag of the body over the square of the speed, along x, y, z"),
     "body_displaced":      Quantity("kg", "", "water that the body displaces: it follows waves"),
-    "water_height":        Quantity("m", "z", "height over the surface, negative below"),
-    "water_speed":         Quantity("m/s", "u", "velocity of the water"),
     "thrust_direction":    Quantity("rad", "", "direction of each motor's thrust, 0 along x, pi/2 along y"),
     # numerics
     "plant_step":          Quantity("s", "", "largest step of the plant; shorter where the waves on the cable demand it"),

@@ -16,7 +16,8 @@ from umbilical.library import load
 
 SMALL = {"environment.payload_force": [{"kind": "sine", "amplitude": 1.0, "frequency": 0.5}]}
 ROPE = {"model": "rope", "duration": 4.0}
-SLOW = {"rope.elements": 400, "rope.axial_stiffness": 1e12, "output.interval": 100.0, "duration": 5e4}
+SHORT = {"depths": [0.0, 500.0], "speeds": [0.1, 0.1], "speeds_across": [0.1]}
+SLOW = {"rope.elements": 400, "cable.axial_stiffness": 1e12, "output.interval": 100.0, "duration": 5e4}
 
 
 @pytest.mark.parametrize("name", ["crosscheck-none", "crosscheck-pd", "crosscheck-proposed", "paper", "paper-dead"])
@@ -119,11 +120,12 @@ def test_a_run_is_stored_and_read(tmp_path: Any) -> None:
 
 def test_snaps_are_counted_and_slack_is_measured() -> None:
     heave = {
-        "rope.vessel_heave": [{"kind": "sine", "amplitude": 3.0, "frequency": 2.0}],
+        "environment.vessel_heave": [{"kind": "sine", "amplitude": 3.0, "frequency": 2.0}],
         "environment.vessel_ramp": 2.0,
-        "rope.body_drag": [500.0, 500.0, 500.0],
-        "rope.body_added_mass": [400.0, 400.0, 400.0],
-        "rope.axial_stiffness": 1e7,
+        "payload.water": {"vertical_drag": 500.0, "vertical_added_mass": 400.0},
+        "payload.wet_weight": 5000.0,
+        "environment.water": {},
+        "cable.axial_stiffness": 1e7,
     }
     run = simulate(load("paper-none", {"model": "rope", "duration": 12.0, "output.interval": 0.01} | heave))
     assert run.status is Status.COMPLETED
@@ -136,7 +138,7 @@ def test_snaps_are_counted_and_slack_is_measured() -> None:
 
 def test_a_cable_that_parts_ends_the_run_with_a_reason() -> None:
     pulled = {
-        "rope.force_up": [{"kind": "constant", "value": -2e7}], "rope.axial_stiffness": 1.5e6,
+        "rope.force_up": [{"kind": "constant", "value": -2e7}], "cable.axial_stiffness": 1.5e6,
         "winch.start_length": 50.0, "winch.end_length": 50.0,
     }  # fmt: skip
     run = simulate(load("paper-none", ROPE | pulled))
@@ -147,12 +149,12 @@ def test_a_cable_that_parts_ends_the_run_with_a_reason() -> None:
 @pytest.mark.parametrize(
     ("changes", "key"),
     [
-        ({"rope.axial_stiffness": 1e4}, "rope.axial_stiffness"),
-        ({"rope.line_weight": -100.0}, "rope.line_weight"),
-        ({"rope.current": [{"height": 0.0, "x": 1.0}, {"height": 0.0, "x": 0.5}]}, "rope.current.2.height"),
+        ({"cable.axial_stiffness": 1e4}, "cable.axial_stiffness"),
+        ({"cable.wet_line_density": -20.0}, "payload.wet_weight"),
+        ({"environment.water": {"current": SHORT}}, "environment.water.current.speeds_across"),
         (SLOW, "rope.elements"),
         ({"rope.thrust_directions": [0.0, 1.0, 2.0]}, "rope.thrust_directions"),
-        ({"rope.vessel_heave": [{"kind": "step", "time": 1.0, "value": 1.0}]}, "rope.vessel_heave.1.kind"),
+        ({"rope.vessel_across": [{"kind": "step", "time": 1.0, "value": 1.0}]}, "rope.vessel_across.1.kind"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_run_is_refused(changes: dict[str, Any], key: str) -> None:

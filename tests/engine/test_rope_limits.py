@@ -16,12 +16,12 @@ from umbilical.library import load
 
 HEAVE = [{"kind": "sine", "amplitude": 2.0, "frequency": 0.785}]
 SNAPPING = {
-    "winch.length": 1000.0, "environment.sea": None, "environment.vessel_ramp": 20.0, "rope.vessel_heave": HEAVE,
+    "winch.length": 1000.0, "environment.sea": None, "environment.vessel_ramp": 20.0, "environment.vessel_heave": HEAVE,
     "duration": 60.0,
 }  # fmt: skip
 HAULED = {"law": "quintic", "start_length": 200.0, "end_length": 20.0, "duration": 55.0}
 DEAD = [{"kind": "dead", "motor": motor, "start": 1.0} for motor in (1, 2)]
-FAST = [{"height": 0.0, "x": 2.0}, {"height": -300.0, "x": 2.0}]
+FAST = {"depths": [0.0, 300.0], "speeds": [2.0, 2.0]}
 
 
 def ended(run: Run) -> Run:
@@ -40,10 +40,10 @@ def test_two_metres_of_heave_snap() -> None:
 @pytest.mark.parametrize(
     ("preset", "changes", "pulled"),
     [
-        ("paper", {"model": "rope", "winch": HAULED, "duration": 60.0, "rope.axial_stiffness": 2e6}, 0.0),
+        ("paper", {"model": "rope", "winch": HAULED, "duration": 60.0, "cable.axial_stiffness": 2e6}, 0.0),
         ("observation-300m", {"payload.wet_weight": 240.0}, 0.1),
         ("observation-300m", {"payload.wet_weight": 20.0}, 1.0),
-        ("observation-300m", {"rope.current": FAST}, 1.0),
+        ("observation-300m", {"environment.water.current": FAST}, 1.0),
         ("paper", {"model": "rope", "faults": DEAD}, 1e-3),
     ],
     ids=["hauled in to 20 m", "a heavy body", "a light body", "a cable drawn level", "all thrusters dead"],
@@ -72,10 +72,13 @@ def test_any_rope_ends_with_a_status_and_a_reason(
 ) -> None:  # fmt: skip
     changes: dict[str, Any] = {
         "model": "rope", "duration": 10.0, "payload.mass": mass, "rope.elements": elements,
-        "rope.axial_stiffness": stiffness, "rope.diameter": 0.02, "rope.body_drag": [mass, mass, mass],
+        "cable.axial_stiffness": stiffness, "cable.water": {"diameter": 0.02}, "cable.wet_line_density": 1.7,
+        "payload.water": {"quadratic_drag": mass, "vertical_drag": mass}, "payload.wet_weight": 9.0 * mass,
         "winch": {"law": "quintic", "start_length": ends[0], "end_length": ends[1], "duration": 40.0},
-        "rope.current": [{"height": 0.0, "x": current, "y": 0.5 * current}],
-        "rope.vessel_heave": [{"kind": "sine", "amplitude": heave, "frequency": 2.0 * np.pi / period}],
+        "environment.water": {"current": {
+            "depths": [0.0, 500.0], "speeds": [current, current], "speeds_across": [0.5 * current, 0.5 * current],
+        }},
+        "environment.vessel_heave": [{"kind": "sine", "amplitude": heave, "frequency": 2.0 * np.pi / period}],
         "rope.force_up": [{"kind": "sine", "amplitude": force, "frequency": 1.0}], "environment.vessel_ramp": 2.0,
     }  # fmt: skip
     try:

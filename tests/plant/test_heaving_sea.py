@@ -47,6 +47,9 @@ def test_slack_is_refused_with_its_instant_and_points_to_the_rope() -> None:
     assert 'model = "rope"' in problem.cure
 
 
-def test_the_rope_needs_no_such_key() -> None:
-    with pytest.raises(ScenarioError, match="always heaves"):
-        umbilical.load("ringdown", {"environment.sea": SEA, **SHORT, "model": "rope"})
+def test_the_rope_heaves_with_or_without_the_key() -> None:
+    heaving, silent = (
+        umbilical.simulate(umbilical.load("ringdown", {"environment.sea": sea, **SHORT, "model": "rope"}))
+        for sea in (SEA, SEA | {"heave": False})
+    )
+    np.testing.assert_array_equal(heaving["top_tension"], silent["top_tension"])

@@ -88,10 +88,13 @@ SLACK = {
     "model": "rope", "duration": 6.0, "output.interval": 0.02, "payload.wet_weight": 1000.0,
     "cable.wet_line_density": 0.5, "winch": {"law": "constant", "length": 100.0}, "control.law": {"kind": "none"},
     "rope": {
-        "elements": 4, "axial_stiffness": 1e6, "diameter": 0.03, "body_drag": [400.0, 400.0, 600.0],
-        "current": [{"height": 0.0, "x": 0.5, "y": 0.3}],
-        "vessel_heave": [{"kind": "sine", "amplitude": 2.0, "frequency": 1.2}],
+        "elements": 4,
     },
+    "cable.axial_stiffness": 1e6, "cable.water": {"diameter": 0.03},
+    "payload.water": {"quadratic_drag": 400.0, "vertical_drag": 600.0},
+    "environment.water": {"current": {"depths": [0.0, 100.0], "speeds": [0.5, 0.5], "speeds_across": [0.3, 0.3]}},
+    "environment.vessel_heave": [{"kind": "sine", "amplitude": 2.0, "frequency": 1.2}],
+    "initial.shape": "equilibrium",
 }  # fmt: skip
 """A vessel heaves more than a light body can follow."""
 

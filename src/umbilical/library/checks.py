@@ -33,7 +33,7 @@ CHECKS: tuple[Check, ...] = (
     weights.cable_in_water,
     weights.payload_in_water,
     weights.believed_in_water,
-    water.water_of_the_string,
+    water.only_the_rope,
     water.water_is_there,
     water.cable_displaces,
     water.payload_displaces,
@@ -49,7 +49,6 @@ CHECKS: tuple[Check, ...] = (
     seas.vessel,
     seas.repetition,
     stretch.heave_has_its_model,
-    stretch.one_stiffness,
     stretch.heave_of_a_cable_that_stretches,
     seas.orbital_motion,
     seas.regular_waves,
@@ -89,9 +88,10 @@ OF_THE_STRING = (
     statics.static_slope,
     steps.grid_near_the_payload,
     steps.waves,
+    steps.damping,
     steps.waves_that_leave,
 )
-"""Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep."""
+"""Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep, and its step follows its waves and its damping."""
 
 
 def checks_for(model: str) -> tuple[Check, ...]:

@@ -135,7 +135,7 @@ def _jumps(scenario: Scenario) -> Iterator[tuple[str, Iterable[float]]]:
         *((f"voltage of motor {k}", m.voltage_disturbance) for k, m in enumerate(scenario.motors, start=1)),
     ]
     if (rope := scenario.rope) is not None:
-        named += [("vessel", rope.vessel_across), ("vessel", rope.vessel_heave)]
+        named += [("vessel", rope.vessel_across)]
         named += [("force on the ROV", rope.force_across), ("force on the ROV", rope.force_up)]
     yield from ((name, signals.jumps(signal)) for name, signal in named)
     yield "vessel", (environment.vessel_ramp,)
@@ -182,10 +182,12 @@ class Outside:
         self._scenario = scenario
         self._inputs = _empty(scenario, 0)
         environment = scenario.environment
-        self._sea = environment if heaving(environment) else None
-        self._stretching = stretching(scenario.winch, environment, scenario.cable, scenario.payload, scenario.duration)
+        in_plane = scenario.model == "string"  # a rope heaves and stretches of itself
+        self._sea = environment if in_plane and heaving(environment) else None
+        known = scenario.winch, environment, scenario.cable, scenario.payload, scenario.duration
+        self._stretching = stretching(*known) if in_plane else None
         self._orbits: Any = orbital.orbits(environment, 1) if orbital.moves_the_water(environment) else None
-        sinks = SINKING if heaving(environment) or environment.water else ()
+        sinks = SINKING if in_plane and (heaving(environment) or environment.water) else ()
         self._wanted = WINCH + sinks + (STRETCHING if self._stretching else ())
 
     def sample(self, steps: Steps) -> Inputs:

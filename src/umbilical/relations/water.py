@@ -20,8 +20,10 @@ class InWater(NamedTuple):
         displaced, added: mass of the displaced water and rho_a of a metre of cable, kg/m.
         normal, tangential: drag of a metre of cable over the square of the speed, N s2/m3.
         body_displaced, body_added, body_vertical: displaced mass, A_h and A_z of the ROV, kg.
+        body_across: A_h of the ROV in the direction y, kg.
         body_linear: drag of the ROV over its speed, N s/m.
         body_quadratic, body_axial: drag of the ROV across and along the cable over the square of the speed, N s2/m2.
+        body_quadratic_across: the former in the direction y.
     """
 
     displaced: float = 0.0
@@ -34,6 +36,22 @@ class InWater(NamedTuple):
     body_linear: float = 0.0
     body_quadratic: float = 0.0
     body_axial: float = 0.0
+    body_across: float = 0.0
+    body_quadratic_across: float = 0.0
+
+
+def line_in_water(
+    water_density: float, diameter: float, normal_drag: float, tangential_drag: float, added_mass: float,
+    strumming: float = 0.0,
+) -> InWater:  # fmt: skip
+    """Coefficients of a metre of cable; SI units, the last four dimensionless."""
+    displaced, dynamic = water_density * pi * diameter**2 / 4.0, 0.5 * water_density
+    return InWater(
+        displaced,
+        added_mass * displaced,
+        dynamic * normal_drag * (1.0 + STRUMMING * strumming) * diameter,
+        dynamic * tangential_drag * pi * diameter,
+    )
 
 
 def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
@@ -42,14 +60,10 @@ def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
     water = getattr(environment, "water", None)
     found = InWater()
     if of_cable is not None and water is not None:
-        diameter, dynamic = of_cable.diameter, 0.5 * water.density
-        displaced = water.density * pi * diameter**2 / 4.0
-        found = found._replace(
-            displaced=displaced,
-            added=of_cable.added_mass * displaced,
-            normal=dynamic * of_cable.normal_drag * (1.0 + STRUMMING * of_cable.strumming) * diameter,
-            tangential=dynamic * of_cable.tangential_drag * pi * diameter,
-        )
+        found = line_in_water(
+            water.density, of_cable.diameter, of_cable.normal_drag, of_cable.tangential_drag, of_cable.added_mass,
+            of_cable.strumming,
+        )  # fmt: skip
     if of_body is not None:
         found = found._replace(
             body_displaced=of_body.displaced_mass,
@@ -58,8 +72,14 @@ def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
             body_linear=of_body.linear_drag,
             body_quadratic=of_body.quadratic_drag,
             body_axial=of_body.vertical_drag,
+            body_across=_first(of_body.across_added_mass, of_body.added_mass),
+            body_quadratic_across=_first(of_body.across_drag, of_body.quadratic_drag),
         )
     return found
+
+
+def _first(given: float | None, else_: float) -> float:
+    return else_ if given is None else given
 
 
 def line_inertia(cable: Any, payload: Any, environment: Any) -> float:

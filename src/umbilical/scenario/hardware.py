@@ -17,12 +17,13 @@ class Cable(Record):
     )
     damping: float = quantity("cable_damping", ge=0.0, reason="negative damping feeds the cable", cure="use 0 or more")
     wet_line_density: float | None = quantity(
-        "wet_line_density", None, ge=0.0, le=1e4, reason="a cable that floats does not hang",
-        cure="kg per metre, its weight in water over g: 0 floats, left out it weighs as in air",
+        "wet_line_density", None, ge=-1e4, le=1e4, reason="what water leaves of the weight, which no more than floats",
+        cure="kg per metre, its weight in water over g: negative floats up, left out it weighs as in air",
     )  # fmt: skip
     axial_stiffness: float | None = quantity(
         "axial_stiffness", None, gt=0.0, reason="the cable is elastic",
-        cure="newton, from the maker; on the string it counts where heave enters the tension",
+        cure="newton, from the maker; on the string it counts where heave enters the tension, and the rope assumes ten "
+        "thousand times the static tension at the vessel where it is left out",
     )  # fmt: skip
     water: CableInWater | None = None
 

@@ -126,7 +126,7 @@ def _unknown(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], re
         shown(complaint["input"]),
         f"one of {', '.join(known)}",
         "there is no such key here, and none is ever ignored",
-        nearest(str(name), known),
+        f"it is {_MOVED[key]}, for the string and the rope alike" if key in _MOVED else nearest(str(name), known),
     )
 
 
@@ -149,6 +149,21 @@ def _missing_kind(key: str, field: FieldInfo | None, complaint: Mapping[str, Any
     name = complaint["ctx"]["discriminator"].strip("'")
     return Problem(f"{key}.{name}", "missing", "required", f"it says which kind {key} is", f"add {key}.{name}")
 
+
+_MOVED = {
+    "rope.axial_stiffness": "cable.axial_stiffness",
+    "rope.line_weight": "cable.wet_line_density, in kg/m, which over g is the weight in water; negative floats",
+    "rope.diameter": "cable.water.diameter",
+    "rope.normal_drag": "cable.water.normal_drag",
+    "rope.tangential_drag": "cable.water.tangential_drag",
+    "rope.added_mass": "cable.water.added_mass",
+    "rope.body_added_mass": "payload.water.added_mass, across_added_mass and vertical_added_mass",
+    "rope.body_drag": "payload.water.quadratic_drag, across_drag and vertical_drag",
+    "rope.body_displaced": "payload.water.displaced_mass",
+    "rope.current": "environment.water.current, with depths, speeds and speeds_across",
+    "rope.vessel_heave": "environment.vessel_heave",
+}
+"""Keys that the rope once had for what the string's keys say, and which."""
 
 _SPECIAL: dict[str, Callable[[str, FieldInfo | None, Mapping[str, Any], type[Record]], Problem]] = {
     "extra_forbidden": _unknown,

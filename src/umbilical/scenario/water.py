@@ -36,6 +36,8 @@ class BodyInWater(Record):
     linear_drag: float = quantity("body_linear_drag", 0.0, **_DRAGS)
     quadratic_drag: float = quantity("body_quadratic_drag", 0.0, **_DRAGS)
     vertical_drag: float = quantity("body_vertical_drag", 0.0, **_DRAGS)
+    across_added_mass: float | None = quantity("body_across_added_mass", None, **_MOVES_ALONG)
+    across_drag: float | None = quantity("body_across_drag", None, **_DRAGS)
 
 
 class Current(Record):
@@ -45,6 +47,9 @@ class Current(Record):
         min_length=2, max_length=100, description="increasing depths below the sheave's mean height, m"
     )
     speeds: tuple[Number, ...] = Field(min_length=2, max_length=100, description="speed at each depth, m/s")
+    speeds_across: tuple[Number, ...] | None = Field(
+        default=None, max_length=100, description="speed across the plane at each depth, m/s; only the rope feels it"
+    )
     variation: Signal = Field(
         default=(), description="what is added to 1 as the factor of all speeds", json_schema_extra={"unit": "1"}
     )

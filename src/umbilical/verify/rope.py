@@ -251,7 +251,7 @@ def flight() -> Iterator[Check]:
 
 def crosscheck() -> Iterator[Check]:
     """The peak that two codes of the string agree on, of the rope with all its motion in space."""
-    run = simulate(load("crosscheck-none", {"model": "rope", "rope.axial_stiffness": 5e8}))
+    run = simulate(load("crosscheck-none", {"model": "rope", "cable.axial_stiffness": 5e8}))
     if run.status is not Status.COMPLETED:
         raise CaseError(run.reason)
     yield close(

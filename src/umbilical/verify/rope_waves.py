@@ -179,7 +179,7 @@ def irregular() -> Iterator[Check]:
     Drag across the cable stays: without any the vessel's sway and the swing of the tension build up metres of
     transverse motion in an hour, which raises the tension by 6 % (docs/rope.md).
     """
-    still = {"rope.tangential_drag": 0.0, "rope.current": []}
+    still = {"cable.water.tangential_drag": 0.0, "environment.water.current": None}
     coarse = {"control.period": 0.05, "grid.step": 0.05, "output.interval": 0.25, "duration": 3800.0}
     scenario = load("work-class-3000m", still | coarse)
     late = simulate(scenario).data.sel(time=slice(200.0, None))

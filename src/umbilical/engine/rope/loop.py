@@ -30,13 +30,15 @@ class RopeControl(NamedTuple):
     """Settings of the built-in controller, its memory for both directions, and the allocation to directed motors.
 
     Attributes:
-        settings: of either direction.
+        settings: of the direction x, and of what both share.
+        settings_across: of the outer law in the direction y.
         along, across: memory.
         shares: demand of each motor per newton of thrust in x and y, shape (motors, 2).
         directions: unit vectors of the motors' thrusts, shape (motors, 2).
     """
 
     settings: CascadeSettings
+    settings_across: CascadeSettings
     along: CascadeState
     across: CascadeState
     shares: np.ndarray
@@ -73,7 +75,7 @@ def decide(control: RopeControl, world: RopeWorld) -> None:
     if settings.outer.law != NONE:
         if control.along.outer[0].updates % settings.outer_every == 0:
             update_outer(settings.outer, control.along, along.readings, along.decision)
-            update_outer(settings.outer, control.across, across.readings, across.decision)
+            update_outer(control.settings_across.outer, control.across, across.readings, across.decision)
             if settings.motors.driven:
                 allocate(control, world)
         if settings.motors.driven:
@@ -137,7 +139,7 @@ def run_rope_steps(
             observe_rope(world, inputs, first, noise, across, j)
         if inside and begin + j == 0:
             start(control.settings, control.along, world.along.readings)
-            start(control.settings, control.across, world.across.readings)
+            start(control.settings_across, control.across, world.across.readings)
         if inside:
             decide(control, world)
         else:

@@ -37,11 +37,12 @@ from umbilical.plant import faults
 from umbilical.plant.exogenous import published_jumps
 from umbilical.plant.layout import positions
 from umbilical.plant.motors import MotorState, make_motors
-from umbilical.plant.rope.assemble import initial_rope, rope_of, rope_step, section, stated_stiffness
+from umbilical.plant.rope.assemble import initial_rope, rope_of, rope_step, section
 from umbilical.plant.rope.energy import energy
 from umbilical.plant.rope.outside import RopeSampler, still_water
 from umbilical.plant.rope.records import POWERS, STAGES, Rope, RopeOutside
 from umbilical.relations.instants import count_up
+from umbilical.relations.water import in_water
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
 
@@ -55,7 +56,7 @@ class RopeModel:
     def __init__(self, scenario: Scenario, *, stored: bool = True) -> None:
         announce("run_rope_steps")
         self._scenario, self._stored = scenario, stored
-        self._rope, self._water = rope_of(scenario), still_water(section(scenario))
+        self._rope, self._water = rope_of(scenario), still_water(scenario)
         step = min(scenario.grid.step, rope_step(scenario))
         self.clock = make_clock(scenario.duration, scenario.control.period, step, published_jumps(scenario))
         self._world, self._control = self._make_world(), self._make_control()
@@ -94,11 +95,11 @@ class RopeModel:
     def _make_control(self) -> RopeControl:
         scenario = self._scenario
         settings = cascade.make_settings(scenario)
-        added = float(np.mean(section(scenario).body_added_mass[:2]))
-        outer = settings.outer._replace(payload_mass=settings.outer.payload_mass + added)
-        settings = settings._replace(outer=outer)
         along, across = cascade.make_state(scenario), cascade.make_state(scenario)
-        return RopeControl(settings, along, across, shares_of(settings, directions(scenario)), directions(scenario))
+        return RopeControl(
+            settings, across_settings(settings, scenario), along, across,
+            shares_of(settings, directions(scenario)), directions(scenario),
+        )  # fmt: skip
 
     def _make_record(self) -> RopeRecord:
         scenario, clock = self._scenario, self.clock
@@ -192,7 +193,7 @@ class RopeModel:
     def notices(self) -> tuple[str, ...]:
         tally, scenario = self._record.tally, self._scenario
         found = [str(notice) for notice in saturation_notices(scenario, tally)]
-        if stated_stiffness(scenario) is None:
+        if scenario.cable.axial_stiffness is None:
             found.append(
                 f"cable.axial_stiffness: left out, {self._rope.stiffness:.4g} N assumed: ten thousand times the static "
                 "tension at the vessel"
@@ -267,6 +268,17 @@ def directions(scenario: Scenario) -> np.ndarray:
     """Unit vectors of the motors' thrusts, shape (motors, 2); along x where nothing is said."""
     angles = section(scenario).thrust_directions or (0.0,) * len(scenario.motors)
     return np.array([[np.cos(angle), np.sin(angle)] for angle in angles]).reshape(-1, 2)
+
+
+def across_settings(settings: CascadeSettings, scenario: Scenario) -> CascadeSettings:
+    """For the direction y: the added mass and drag there, and the station below the sheave."""
+    outer, water = settings.outer, in_water(None, scenario.payload, None)
+    across = outer._replace(
+        payload_mass=outer.payload_mass + water.body_across - water.body_added,
+        quadratic_drag=water.body_quadratic_across if outer.quadratic_drag else 0.0,
+        station=outer.station._replace(place=0.0),
+    )
+    return settings._replace(outer=across)
 
 
 def shares_of(settings: CascadeSettings, towards: np.ndarray) -> np.ndarray:

@@ -47,7 +47,7 @@ class RopeLog(NamedTuple):
 
     Attributes:
         now, outer, across: records, shape (samples,).
-        works: in the order of ``POWERS``, shape (samples, 10).
+        works: in the order of ``POWERS``, shape (samples, terms).
         motors, decisions, motors_derived: shape (samples, motors).
         kappa: shape (samples, motors + 1).
         nodes: l r_x and velocities at the nodes, shape (samples, 5, 6 n).

@@ -1,19 +1,17 @@
-"""Checks of a scenario with ``model = "rope"``: stretch, weights, water, thrusters, and the steps it takes."""
+"""Checks of a scenario with ``model = "rope"``: stretch, weights, thrusters, and the steps it takes."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
 
 import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant.checks.timeline import MOST_STEPS, check_signal
-from umbilical.plant.rope.assemble import at_rest, cable_data, rope_of, rope_step, section, stiffness, weights_of
+from umbilical.plant.rope.assemble import at_rest, rope_of, rope_step, section, stiffness, weights_of
 from umbilical.plant.rope.outside import still_water
 from umbilical.plant.top import top_at
 from umbilical.relations.instants import apart
-from umbilical.relations.tension import weight_of_mass
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
@@ -23,14 +21,11 @@ _STIFF, _WEAK = 100.0, 10.0
 """EA over the largest static load: below the first a stretch of 1 % is told, below the second refused."""
 _SECONDS = 2.5e-7
 """Of computing for a node in a step, roughly."""
-_OFF = 0.05
-"""Share of the weight in air by which stated and derived weight in water may differ before it is told."""
 
 
 def signals_of(rope: Rope) -> Iterator[tuple[str, Signal, str]]:
     """Signals of the section with their keys and units."""
     yield "rope.vessel_across", rope.vessel_across, "m"
-    yield "rope.vessel_heave", rope.vessel_heave, "m"
     yield "rope.force_across", rope.force_across, "N"
     yield "rope.force_up", rope.force_up, "N"
 
@@ -55,19 +50,14 @@ def stretch(scenario: Scenario) -> Iterator[Finding]:
     given, load = stiffness(scenario), max(weights_of(scenario))
     if given < _WEAK * load:
         yield Problem(
-            stiffness_key(scenario),
+            "cable.axial_stiffness",
             amount(given, "N"),
             f"above {_WEAK * load:.4g} N, ten times the static tension",
             "the cable would stretch by more than a tenth, where no material is linear",
             "the force over strain of the whole cable, EA, in newton",
         )
     elif given < _STIFF * load:
-        yield Notice(stiffness_key(scenario), f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
-
-
-def stiffness_key(scenario: Scenario) -> str:
-    """Where a scenario says how stiff the cable is."""
-    return "rope.axial_stiffness" if section(scenario).axial_stiffness is not None else "cable.axial_stiffness"
+        yield Notice("cable.axial_stiffness", f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
 
 
 def weights(scenario: Scenario) -> Iterator[Finding]:
@@ -75,37 +65,12 @@ def weights(scenario: Scenario) -> Iterator[Finding]:
     end, top = weights_of(scenario)
     if not min(end, top) > 0.0:
         yield Problem(
-            "rope.line_weight",
+            "payload.wet_weight",
             f"a static tension of {min(end, top):.4g} N",
             "above 0 all along the cable",
             "a cable that lifts the body up has no shape to start from under the sheave",
             "a heavier body (payload.wet_weight), a clump, or a cable that floats less",
         )
-    data = cable_data(scenario)
-    area = pi * data.diameter**2 / 4.0
-    gravity = scenario.environment.gravity
-    derived = weight_of_mass(data.density - 1025.0 * area, gravity)
-    if data.diameter and abs(derived - data.weight) > _OFF * weight_of_mass(data.density, gravity):
-        yield Notice(
-            "rope.diameter",
-            f"{data.density:g} kg/m and {data.diameter:g} m in sea water weigh {derived:.4g} N/m, not the stated "
-            f"{data.weight:.4g} N/m",
-        )
-
-
-def water(scenario: Scenario) -> Iterator[Finding]:
-    """Levels of the current differ."""
-    rope = section(scenario)
-    heights = [level.height for level in rope.current]
-    for number, height in enumerate(heights, start=1):
-        if height in heights[: number - 1]:
-            yield Problem(
-                f"rope.current.{number}.height",
-                amount(height, "m"),
-                "another height than the levels before it",
-                "the water has one velocity at a height",
-                "one level for each height",
-            )
 
 
 def thrusters(scenario: Scenario) -> Iterator[Finding]:
@@ -121,22 +86,22 @@ def thrusters(scenario: Scenario) -> Iterator[Finding]:
         )
     elif not scenario.ideal_thruster and scenario.motors and scenario.control.law.kind != "none":
         towards = np.abs(np.sin(angles or (0.0,)))
-        rope = section(scenario)
-        if towards.max() < 1e-9 and (rope.force_across or rope.vessel_across or any(w.y for w in rope.current)):
+        rope, sideways = section(scenario), still_water(scenario).flow[:, :, 1].any()
+        if towards.max() < 1e-9 and (rope.force_across or rope.vessel_across or sideways):
             yield Notice("rope.thrust_directions", "no motor pushes along y, where something acts: nothing holds y")
 
 
 def start(scenario: Scenario) -> Iterator[Finding]:
     """There is a shape at rest to start from."""
-    if any(isinstance(found, Problem) for check in (weights, stretch, water, signals) for found in check(scenario)):
+    if any(isinstance(found, Problem) for check in (weights, stretch, signals) for found in check(scenario)):
         return
     try:
-        at_rest(scenario, rope_of(scenario), still_water(section(scenario)))
+        at_rest(scenario, rope_of(scenario), still_water(scenario))
     except ValueError as error:
         yield Problem(
-            "rope.current",
-            f"{len(section(scenario).current)} levels",
-            "a current in which the cable hangs at rest",
+            "initial",
+            f'"{scenario.initial.shape}"',
+            "a shape in which the cable hangs at rest in the current at the start",
             str(error),
             "a weaker current, or a heavier body",
         )
@@ -154,9 +119,9 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
             f"{MOST_STEPS:g} steps, not {count:.3g}, which take {_SECONDS * nodes * count / 3600.0:.2g} hours or more",
             f"a step is {apart(largest, duration)[0]} s: waves along the cable cross an element, {shortest:.4g} m of "
             "cable at the shortest, or the body gives its speed to the cable, in so short a time",
-            "fewer rope.elements, a smaller rope.axial_stiffness, a heavier body, a shorter run",
+            "fewer rope.elements, a smaller cable.axial_stiffness, a heavier body, a shorter run",
         )
 
 
-CHECKS = (signals, stretch, weights, water, thrusters, start, steps)
+CHECKS = (signals, stretch, weights, thrusters, start, steps)
 """What only a scenario with ``model = "rope"`` is asked."""

@@ -13,7 +13,6 @@ from umbilical.relations.tension import hanging_of, largest_tension, net_gravity
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Cable, Payload
-from umbilical.scenario.rope import Rope
 from umbilical.scenario.signals import Table
 from umbilical.scenario.winch import Winch
 
@@ -25,21 +24,9 @@ def heave_has_its_model(environment: Environment, model: str) -> Iterator[Findin
     """A sea's heave is left out of the string's tension unless it is asked for; the rope always heaves."""
     if (sea := environment.sea) is None or not sound(environment) or not sheave(environment).up:
         return
-    if model == "rope" and sea.heave:
-        reason = "the rope always heaves; the key is for the string's tension"
-        yield Problem("environment.sea.heave", "true", 'left out where model = "rope"', reason, "leave it out")
-    elif model != "rope" and not sea.heave:
+    if model != "rope" and not sea.heave:
         words = 'the sheave\'s heave is left out of the tension (environment.sea.heave, or model = "rope")'
         yield Notice("environment.sea", words)
-
-
-def one_stiffness(cable: Cable, rope: Rope | None) -> Iterator[Finding]:
-    """The stiffness is said once."""
-    if cable.axial_stiffness is not None and rope is not None and rope.axial_stiffness is not None:
-        yield Problem(
-            "rope.axial_stiffness", amount(rope.axial_stiffness, "N"), "left out beside cable.axial_stiffness",
-            "it is the same cable", "leave one",
-        )  # fmt: skip
 
 
 def heave_of_a_cable_that_stretches(

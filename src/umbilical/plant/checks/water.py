@@ -11,6 +11,7 @@ from umbilical.plant.checks.motion import sampled_top
 from umbilical.plant.checks.tables import TableOf, table_problems
 from umbilical.plant.checks.timeline import signals_of_the_environment
 from umbilical.plant.signals import heave
+from umbilical.relations.instants import reaches
 from umbilical.relations.tension import mass_of_weight
 from umbilical.relations.water import in_water
 from umbilical.scenario.environment import Environment
@@ -37,33 +38,41 @@ def water_is_there(cable: Cable, payload: Payload, environment: Environment) -> 
             )
 
 
-def water_of_the_string(model: str, cable: Cable, payload: Payload, environment: Environment) -> Iterator[Finding]:
-    """The rope has a section of its own for the sea, and reads none of the string's."""
-    sections = {
-        "cable.water": cable.water,
-        "payload.water": payload.water,
-        "environment.water": environment.water,
-        "environment.vessel_heave": environment.vessel_heave,
-    }
+def only_the_rope(model: str, cable: Cable, payload: Payload, environment: Environment) -> Iterator[Finding]:
+    """A cable that floats is no string; what acts across its plane is left out, and that is told."""
     if model == "rope":
-        for key, given in sections.items():
-            if given:
-                reason = "the rope reads the sea from its own section and would leave this out without a word"
-                yield Problem(key, "given", 'left out where model = "rope"', reason, "say it in [rope] instead")
+        return
+    if cable.wet_line_density is not None and cable.wet_line_density < 0.0:
+        yield Problem(
+            "cable.wet_line_density",
+            amount(cable.wet_line_density, "kg/m"),
+            'at least 0 kg/m, or model = "rope"',
+            "a cable that floats bends upwards and its tension vanishes: that needs a full model of the cable",
+            'model = "rope", or the weight of a metre in water over g: 0 floats',
+        )
+    current = environment.water.current if environment.water else None
+    across = {
+        "payload.water.across_added_mass": payload.water and payload.water.across_added_mass,
+        "payload.water.across_drag": payload.water and payload.water.across_drag,
+        "environment.water.current.speeds_across": current and current.speeds_across,
+    }
+    for key, given in across.items():
+        if given is not None:
+            yield Notice(key, 'nothing across the plane counts for the string; model = "rope" reads it')
 
 
-def cable_displaces(cable: Cable, payload: Payload, environment: Environment) -> Iterator[Finding]:
-    """A cable in water has its weight there; it is heavier than the water it displaces, or floats."""
+def cable_displaces(cable: Cable, payload: Payload, environment: Environment, model: str) -> Iterator[Finding]:
+    """A cable in water has its weight there; a string is heavier than the water it displaces."""
     if cable.water is None or environment.water is None:
         return
     displaced, dry, wet = in_water(cable, payload, environment).displaced, cable.line_density, cable.wet_line_density
-    if dry < displaced:
+    if dry < displaced and model != "rope":
         yield Problem(
             "cable.line_density",
             amount(dry, "kg/m"),
             f"at least the {displaced:.6g} kg/m of water that {cable.water.diameter:g} m of diameter displace",
             "a cable that floats bends upwards and its tension vanishes: that needs a full model of the cable",
-            "the dry mass of a metre, flooded water included, and the diameter in metres",
+            'the dry mass of a metre, flooded water included, and the diameter in metres; or model = "rope"',
         )
     elif wet is None:
         yield Problem(
@@ -111,9 +120,12 @@ def current_profile(environment: Environment, winch: Winch, duration: float) -> 
     if current is None:
         return
     place = TableOf("environment.water.current", "depths", "speeds", (current.depths[0], current.depths[-1]))
+    across = current.speeds_across
     broken = tuple(table_problems(place, current.depths, len(current.speeds)))
+    if across is not None and not broken:
+        broken = tuple(table_problems(place._replace(values="speeds_across"), current.depths, len(across)))
     yield from broken
-    fastest = max(map(abs, current.speeds))
+    fastest = max(map(abs, (*current.speeds, *(across or ()))))
     if fastest > _FASTEST_CURRENT:
         yield Problem(
             "environment.water.current.speeds",
@@ -126,7 +138,7 @@ def current_profile(environment: Environment, winch: Winch, duration: float) -> 
         return
     if sampled := sampled_top(winch, environment, duration):
         depth = float(np.max(sampled[1].length - sampled[1].heave))
-        if depth > current.depths[-1]:
+        if not reaches(current.depths[-1], depth, depth):
             yield Problem(
                 "environment.water.current.depths",
                 f"down to {current.depths[-1]:g} m",

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from math import ceil
+from dataclasses import replace
+from functools import partial
+from math import inf
 
 import numpy as np
 
 from umbilical.plant.exogenous import profile
+from umbilical.plant.forces.table import decays
 from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.rope.model import BodyData, CableData, make_rope
-from umbilical.plant.rope.outside import vessel_in_space
+from umbilical.plant.rope.outside import CALM, forces_on_the_body, vessel_in_space
 from umbilical.plant.rope.records import Rope, RopeState, Water, make_state
 from umbilical.plant.rope.statics import Shape, hanging_shape, node_positions, put_shape, settle
 from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, look_at_rope
+from umbilical.plant.signals import evaluate
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension, tension_gain
-from umbilical.scenario.environment import Straight
+from umbilical.relations.water import in_water
+from umbilical.scenario.environment import EquilibriumShape, Straight
 from umbilical.scenario.rope import Rope as RopeSection
 from umbilical.scenario.scenario import Scenario
 
@@ -29,16 +34,10 @@ def section(scenario: Scenario) -> RopeSection:
     return scenario.rope or RopeSection()
 
 
-def stated_stiffness(scenario: Scenario) -> float | None:
-    """EA as the scenario says it, of the rope or of the cable, N."""
-    own = section(scenario).axial_stiffness
-    return scenario.cable.axial_stiffness if own is None else own
-
-
 def stiffness(scenario: Scenario) -> float:
     """EA, N: given, or assumed from the static tension at the vessel on the longest length of the run."""
-    if (given := stated_stiffness(scenario)) is not None:
-        return given
+    if scenario.cable.axial_stiffness is not None:
+        return scenario.cable.axial_stiffness
     lengths = _lengths(scenario)
     hung = hanging_of(scenario.cable, scenario.payload, scenario.environment)
     return ASSUMED_STIFFNESS * float(np.max(largest_tension(lengths, net_gravity(scenario.environment.gravity), hung)))
@@ -50,22 +49,29 @@ def _lengths(scenario: Scenario) -> np.ndarray:
 
 def cable_data(scenario: Scenario) -> CableData:
     """The cable."""
-    cable, rope = scenario.cable, section(scenario)
-    hung, still = hanging_of(cable, scenario.payload, scenario.environment), net_gravity(scenario.environment.gravity)
-    weight = float(tension_gain(1.0, still, hung)) if rope.line_weight is None else rope.line_weight
-    return CableData(
-        stiffness(scenario), cable.line_density, weight, rope.diameter, rope.normal_drag, rope.tangential_drag,
-        rope.added_mass, cable.damping,
-    )  # fmt: skip
+    cable, environment = scenario.cable, scenario.environment
+    hung, still = hanging_of(cable, scenario.payload, environment), net_gravity(environment.gravity)
+    weight = float(tension_gain(1.0, still, hung))
+    dry = CableData(stiffness(scenario), cable.line_density, weight, damping=cable.damping)
+    if cable.water is None or environment.water is None:
+        return dry
+    return replace(dry, water_density=environment.water.density, **cable.water.model_dump())
 
 
 def body_data(scenario: Scenario) -> BodyData:
     """The body; its linear damping is horizontal, as on the string."""
-    payload, rope = scenario.payload, section(scenario)
-    hung, still = hanging_of(scenario.cable, payload, scenario.environment), net_gravity(scenario.environment.gravity)
-    weight = float(tension(0.0, still, hung))
-    damping = (payload.damping, payload.damping, 0.0)
-    return BodyData(payload.mass, weight, rope.body_added_mass, damping, rope.body_drag, rope.body_displaced)
+    payload, environment = scenario.payload, scenario.environment
+    hung, still = hanging_of(scenario.cable, payload, environment), net_gravity(environment.gravity)
+    found = in_water(None, payload, None)
+    return BodyData(
+        payload.mass,
+        float(tension(0.0, still, hung)),
+        (found.body_added, found.body_across, found.body_vertical),
+        (found.body_linear, found.body_linear, 0.0),
+        (found.body_quadratic, found.body_quadratic_across, found.body_axial),
+        found.body_displaced,
+        (payload.damping, payload.damping, 0.0),
+    )
 
 
 def rope_of(scenario: Scenario) -> Rope:
@@ -75,7 +81,7 @@ def rope_of(scenario: Scenario) -> Rope:
     rows = [profile(load.profile, sigma) for load in scenario.environment.cable_load]
     loads = np.array(rows) if rows else np.zeros((0, *sigma.shape))
     body = body_data(scenario)
-    moving = bool(rope.current) or bool(np.any(body.drag)) or bool(np.any(body.damping))
+    moving = bool(scenario.environment.water) or bool(np.any(body.drag)) or bool(np.any(body.damping))
     return make_rope(cable_data(scenario), body, rope.elements, profiles=loads, moving=moving)
 
 
@@ -87,7 +93,7 @@ def rope_step(scenario: Scenario) -> float:
         largest_step(rope, float(length), float(speed), elements)
         for length, speed in zip(motion.length, motion.speed, strict=True)
     )
-    return min(crossing, _body_step(rope))
+    return min(crossing, _body_step(rope), _damped_step(scenario))
 
 
 def _body_step(rope: Rope) -> float:
@@ -95,9 +101,10 @@ def _body_step(rope: Rope) -> float:
     return SAFE * float(rope.inertia.min()) / (rope.density * axial_speed(rope))
 
 
-def substeps(scenario: Scenario) -> int:
-    """Steps of the rope in a control period."""
-    return max(1, ceil(scenario.control.period / rope_step(scenario) - 1e-9))
+def _damped_step(scenario: Scenario) -> float:
+    """Damping and drag take no more of the speed than the method can follow."""
+    found = decays(scenario.cable, scenario.payload, scenario.environment)
+    return min((SAFE * one.inertia / one.coefficient for one in found if one.coefficient), default=inf)
 
 
 def weights_of(scenario: Scenario) -> tuple[float, float]:
@@ -107,30 +114,49 @@ def weights_of(scenario: Scenario) -> tuple[float, float]:
 
 
 def at_rest(scenario: Scenario, rope: Rope, water: Water) -> tuple[RopeState, Shape]:
-    """The rope as it hangs in the current at the start, and the shape it was found in.
+    """The rope at rest under the current and the loads as they are at the start, and the shape it was found in.
+
+    Without ``initial.shape = "equilibrium"`` in still water, with no loads.
 
     Raises:
         ValueError: there is no such shape.
     """
-    state = make_state(section(scenario).elements)
+    state, sigma = make_state(section(scenario).elements), node_positions(section(scenario).elements)
     start, outside = top_at(scenario.winch, 0.0), state.outside[0]
     outside.length, outside.payout_speed = float(start.length), float(start.speed)
     place, speed = (part[0] for part in vessel_in_space(scenario, np.zeros(1)))
     outside.vessel_position[:], outside.vessel_speed[:] = place, speed
-    found = hanging_shape(rope, water, outside.length, place, np.zeros(3), node_positions(section(scenario).elements))
+    initial = scenario.initial
+    if not isinstance(initial, EquilibriumShape):
+        found = hanging_shape(rope, CALM, outside.length, place, np.zeros(3), sigma)
+    else:
+        held = None if initial.tip is None else np.array([initial.tip, 0.0])
+        force, load = forces_on_the_body(scenario, 0.0), partial(_load_at_start, scenario)
+        found = hanging_shape(rope, water, outside.length, place, force, sigma, load=load, held=held)
+    outside.body_force[:] = found.force
     put_shape(state, found.slopes, outside.length)
     return state, found
 
 
+def _load_at_start(scenario: Scenario, sigma: float) -> float:
+    """Loads along the cable at the start, N/m."""
+    return sum(float(evaluate(load.signal, 0.0)) * float(profile(load.profile, np.array(sigma)))
+               for load in scenario.environment.cable_load)  # fmt: skip
+
+
 def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
-    """The rope at the start: as it hangs in the current; another initial shape is laid over that, at rest."""
+    """The rope at the start; a shape of the string's is laid over the cable as it hangs in still water."""
     state, _ = at_rest(scenario, rope, water)
     outside = state.outside[0]
-    if not isinstance(scenario.initial, Straight):
+    if not isinstance(scenario.initial, Straight | EquilibriumShape):
         sigma = node_positions(state.stretch.shape[1])
         lean(state, slope_of_shape(scenario, sigma) / outside.length)
     elif not outside.payout_speed and not outside.vessel_speed.any():
-        settle(rope, state, np.zeros(0), water)
+        if isinstance(scenario.initial, Straight):
+            settle(rope, state, np.zeros(0), CALM)
+        else:
+            loads = scenario.environment.cable_load
+            settle(rope, state, np.array([float(evaluate(load.signal, 0.0)) for load in loads]), water)
     move_with_the_winch(state)
     look_at_rope(rope, state)
     return state

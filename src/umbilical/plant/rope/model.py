@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from umbilical.plant.rope.records import (
 )
 from umbilical.plant.rope.statics import hanging_shape, jacobian, node_positions, put_shape, settle
 from umbilical.plant.rope.step import largest_step, look_at_rope, run_rope
+from umbilical.relations.water import line_in_water
 
 Vector = float | tuple[float, float, float]
 WATER_DENSITY = 1025.0
@@ -39,6 +40,7 @@ class CableData:
         diameter: m; 0 is in vacuum.
         normal_drag, tangential_drag, added_mass: coefficients C_dn, C_dt, C_a.
         damping: linear, of the horizontal velocity, N s/m2.
+        water_density: kg/m3.
     """
 
     stiffness: float
@@ -49,6 +51,8 @@ class CableData:
     tangential_drag: float = 0.0
     added_mass: float = 1.0
     damping: float = 0.0
+    water_density: float = WATER_DENSITY
+    strumming: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -59,7 +63,8 @@ class BodyData:
         mass: dry, kg.
         weight: in water, N.
         added_mass: kg.
-        damping, drag: linear, N s/m, and quadratic, N s2/m2.
+        damping, drag: linear, N s/m, and quadratic, N s2/m2, of the velocity through the water.
+        friction: linear, of the velocity over ground, N s/m.
         displaced: mass of the displaced water, kg, which follows waves.
     """
 
@@ -69,6 +74,7 @@ class BodyData:
     damping: Vector = 0.0
     drag: Vector = 0.0
     displaced: float = 0.0
+    friction: Vector = 0.0
 
 
 @dataclass(frozen=True)
@@ -101,23 +107,26 @@ def make_rope(
     cable: CableData, body: BodyData, elements: int, *, profiles: np.ndarray | None = None, moving: bool = False
 ) -> Rope:
     """Constants for the kernels; ``profiles`` of loads along the cable of shape (loads, 5, n)."""
-    area = pi * cable.diameter**2 / 4.0
     above, faces = make_above(elements)
-    per_square = 0.5 * WATER_DENSITY * cable.diameter
+    line = line_in_water(
+        cable.water_density, cable.diameter, cable.normal_drag, cable.tangential_drag, cable.added_mass,
+        cable.strumming,
+    )  # fmt: skip
     rope = Rope(
         stiffness=cable.stiffness,
         density=cable.density,
         weight=cable.weight,
-        added=cable.added_mass * WATER_DENSITY * area,
-        displaced=WATER_DENSITY * area,
-        normal_drag=per_square * cable.normal_drag,
-        tangential_drag=per_square * pi * cable.tangential_drag,
+        added=line.added,
+        displaced=line.displaced,
+        normal_drag=line.normal,
+        tangential_drag=line.tangential,
         damping=cable.damping,
         inertia=body.mass + vector_of(body.added_mass),
         moved_water=body.displaced + vector_of(body.added_mass),
         body_weight=body.weight,
         body_damping=vector_of(body.damping),
         body_drag=vector_of(body.drag),
+        body_friction=vector_of(body.friction),
         above=above,
         above_faces=faces,
         profiles=np.zeros((0, 5, elements)) if profiles is None else profiles,

@@ -16,6 +16,9 @@ from umbilical.plant.top import top_at, vessel_at
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
 
+CALM = Water(np.zeros(1), np.zeros((STAGES, 1, 6)))
+"""Water at rest."""
+
 
 class RopeInputs(NamedTuple):
     """What acts from outside, step by step.
@@ -40,28 +43,39 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
     waves = sheave(environment)
     others = [
         vessel_at(environment.model_copy(update={"vessel_motion": signal, "sea": None}), instants, side)
-        for signal in (rope.vessel_across + waves.across, rope.vessel_heave + waves.up)
+        for signal in (rope.vessel_across + waves.across, (environment.vessel_heave or ()) + waves.up)
     ]
     place, speed = (np.stack(parts, axis=-1) for parts in zip(along, *others, strict=True))
     return place, speed
 
 
-def still_water(rope: Rope) -> Water:
+def still_water(scenario: Scenario) -> Water:
     """The water for the kernels: the current, which does not change in time."""
-    levels = sorted(rope.current, key=lambda level: -level.height)
-    flow = np.zeros((STAGES, max(len(levels), 1), 6))
-    for k, level in enumerate(levels):
-        flow[:, k, :2] = level.x, level.y
-    return Water(np.array([level.height for level in levels] or [0.0]), flow)
+    water = scenario.environment.water
+    if water is None or water.current is None:
+        return CALM
+    current = water.current
+    flow = np.zeros((STAGES, len(current.depths), 6))
+    flow[:, :, 0] = current.speeds
+    if current.speeds_across is not None:
+        flow[:, :, 1] = current.speeds_across
+    return Water(-np.array(current.depths), flow)
+
+
+def forces_on_the_body(scenario: Scenario, t: ArrayLike, side: Side = "right") -> Any:
+    """External force on the body at instants of any shape, N: shape (..., 3)."""
+    rope = scenario.rope or Rope()
+    given = (scenario.environment.payload_force, rope.force_across, rope.force_up)
+    return np.stack([signals.evaluate(signal, np.asarray(t, dtype=float), side) for signal in given], axis=-1)
 
 
 class RopeSampler:
     """Samples the outside world of a scenario, stretch by stretch."""
 
     def __init__(self, scenario: Scenario) -> None:
-        self._scenario, self._rope = scenario, scenario.rope or Rope()
+        self._scenario = scenario
         self._plane = Outside(scenario)
-        self._water = still_water(self._rope)
+        self._water = still_water(scenario)
 
     def sample(self, steps: Steps) -> RopeInputs:
         """All inputs at the given steps."""
@@ -79,6 +93,4 @@ class RopeSampler:
         top = top_at(self._scenario.winch, t, side)
         out["length"], out["payout_speed"] = top.length, top.speed
         out["vessel_position"], out["vessel_speed"] = vessel_in_space(self._scenario, t, side)
-        forces = (self._scenario.environment.payload_force, self._rope.force_across, self._rope.force_up)
-        for i, signal in enumerate(forces):
-            out["body_force"][:, i] = signals.evaluate(signal, t, side)
+        out["body_force"] = forces_on_the_body(self._scenario, t, side)

@@ -18,10 +18,10 @@ STAGES = 3
 """Of the step, at its start, its end and its middle (``plant/rope/step.py``)."""
 POWERS = (
     "work_thrust", "work_payload_force", "work_payload_damping", "work_vessel", "work_cable_damping", "work_cable_load",
-    "work_weight", "work_drag", "work_added_mass", "work_grid",
+    "work_weight", "work_drag", "work_body_drag", "work_added_mass", "work_grid",
 )  # fmt: skip
 """Terms of the power balance, in the order of ``RopeState.power``."""
-THRUST, FORCE, BODY_DRAG, VESSEL, DAMPING, LOAD, WEIGHT, DRAG, ADDED, GRID = range(10)
+THRUST, FORCE, FRICTION, VESSEL, DAMPING, LOAD, WEIGHT, DRAG, BODY_DRAG, ADDED, GRID = range(11)
 
 
 class Rope(NamedTuple):
@@ -38,7 +38,8 @@ class Rope(NamedTuple):
         inertia: m + A of the body along each axis, kg.
         moved_water: A and the displaced mass, which follow the water's acceleration, kg.
         body_weight: in water, N.
-        body_damping, body_drag: linear, N s/m, and quadratic, N s2/m2, along each axis.
+        body_damping, body_drag: linear, N s/m, and quadratic, N s2/m2, along each axis, through the water.
+        body_friction: linear, over ground, N s/m.
         above: 1 - sigma at the nodes, shape (5, n).
         above_faces: 1 - sigma where elements meet, both ends included, shape (n + 1,).
         profiles: of the loads along the cable, shape (loads, 5, n).
@@ -58,6 +59,7 @@ class Rope(NamedTuple):
     body_weight: float
     body_damping: np.ndarray
     body_drag: np.ndarray
+    body_friction: np.ndarray
     above: np.ndarray
     above_faces: np.ndarray
     profiles: np.ndarray

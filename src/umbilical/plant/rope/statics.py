@@ -12,6 +12,7 @@ Only the depth of the body is unknown before the sheave is reached.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,10 +27,11 @@ _WIDEST = 1.5
 
 
 class Shape(NamedTuple):
-    """A shape at rest: r_x at some places, shape (..., 3), and where the body is, m, shape (3,)."""
+    """A shape at rest: r_x at some places, shape (..., 3); where the body is, m, and the force on it, N, shape (3,)."""
 
     slopes: np.ndarray
     body: np.ndarray
+    force: np.ndarray
 
 
 def flow_in(water: Water, height: float) -> np.ndarray:
@@ -39,15 +41,19 @@ def flow_in(water: Water, height: float) -> np.ndarray:
 
 
 def hanging_shape(
-    rope: Rope, water: Water, length: float, vessel: np.ndarray, force: np.ndarray, sigma: np.ndarray
-) -> Shape:
+    rope: Rope, water: Water, length: float, vessel: np.ndarray, force: np.ndarray, sigma: np.ndarray, *,
+    load: Callable[[float], float] | None = None, held: np.ndarray | None = None,
+) -> Shape:  # fmt: skip
     """Shape at rest under weight, current and a force on the body, N, shape (3,); at positions ``sigma``, any shape.
 
+    ``load``: along x on a metre of cable, N/m, from x/l. ``held``: x and y at which a horizontal force, which is added
+    to ``force``, holds the body, m.
+
     Raises:
-        ValueError: nothing pulls at the lower end, or no depth of the body meets the sheave.
+        ValueError: nothing pulls at the lower end, or no depth of the body or no force meets the sheave.
     """
     from scipy.integrate import solve_ivp  # slow to import
-    from scipy.optimize import brentq  # slow to import
+    from scipy.optimize import brentq, root  # slow to import
 
     def along(s: float, y: np.ndarray) -> np.ndarray:
         pull = y[:3]
@@ -58,14 +64,17 @@ def hanging_shape(
         across = u - slide * t
         drag = rope.normal_drag * np.sqrt(across @ across) * across + rope.tangential_drag * abs(slide) * slide * t
         force = drag - np.array([0.0, 0.0, rope.weight])
+        if load is not None:
+            force[0] += load(1.0 - s / length)
         normal = force - (force @ t) * t
         taken = rope.added * slide * slide / (1.0 + size / rope.stiffness)
         force = force + normal * taken / (size - taken)
         return np.concatenate([force, -(1.0 + size / rope.stiffness) * t])
 
-    def from_depth(height: float, **options: Any) -> Any:
+    def from_depth(height: float, more: Any = (0.0, 0.0), **options: Any) -> Any:
         u = flow_in(water, height)
         pull = (rope.body_damping + rope.body_drag * np.abs(u)) * u + force - np.array([0.0, 0.0, rope.body_weight])
+        pull[:2] += more
         if not pull.any():
             raise ValueError("nothing pulls at the lower end of the cable")
         start = np.concatenate([pull, [0.0, 0.0, height]])
@@ -76,15 +85,25 @@ def hanging_shape(
 
     reach = _WIDEST * length
     height = vessel[2] + (from_depth(vessel[2]).y[5, 0] - from_depth(vessel[2]).y[5, -1])
-    if water.heights.size > 1:
-        root: Any = brentq(miss, vessel[2] - reach, vessel[2] + reach, xtol=1e-9)
-        height = float(root)
-    found = from_depth(height, dense_output=True)
+    holds = np.zeros(2)
+    if held is not None:
+
+        def off(unknown: np.ndarray) -> np.ndarray:
+            ends = from_depth(unknown[0], unknown[1:]).y[3:, -1]
+            return np.array([*(held + ends[:2] - vessel[:2]), ends[2] - vessel[2]])
+
+        solved: Any = root(off, np.array([height, 0.0, 0.0]), method="hybr", options={"xtol": 1e-12})
+        if not np.abs(off(solved.x)).max() < 1e-6 * length:
+            raise ValueError("no horizontal force holds the body there")
+        height, holds = float(solved.x[0]), solved.x[1:]
+    elif water.heights.size > 1:
+        height = float(brentq(miss, vessel[2] - reach, vessel[2] + reach, xtol=1e-9))  # type: ignore[arg-type]
+    found = from_depth(height, holds, dense_output=True)
     pull = found.sol(length * (1.0 - np.ravel(sigma)))[:3].T
     size = np.sqrt((pull**2).sum(axis=1, keepdims=True))
     slopes = (1.0 / size + 1.0 / rope.stiffness) * pull
     way = np.array([*(vessel[:2] - found.y[3:5, -1]), height])
-    return Shape(slopes.reshape(*np.shape(sigma), 3), way)
+    return Shape(slopes.reshape(*np.shape(sigma), 3), way, force + np.array([*holds, 0.0]))
 
 
 def node_positions(elements: int) -> np.ndarray:
