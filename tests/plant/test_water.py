@@ -33,6 +33,7 @@ REFUSED: list[tuple[dict[str, Any], str, str]] = [
     ({"cable.wet_line_density": None}, "cable.wet_line_density", "4.12395 kg/m"),
     ({"cable.wet_line_density": 6.0}, "cable.wet_line_density", "at most cable.line_density"),
     ({"cable.line_density": 1.0, "cable.wet_line_density": 0.5}, "cable.line_density", "a full model of the cable"),
+    ({"cable.wet_line_density": -0.1}, "cable.wet_line_density", 'or model = "rope"'),
     ({"cable.water.diameter": 40.0}, "cable.water.diameter", "metres, not millimetres"),
     ({"cable.water.normal_drag": -1.0}, "cable.water.normal_drag", "drag brakes"),
     ({"cable.water.tangential_drag": -0.01}, "cable.water.tangential_drag", "drag brakes"),
@@ -66,6 +67,8 @@ def test_it_is_refused(change: dict[str, Any], key: str, words: str) -> None:
     ("change", "words"),
     [
         ({"cable.wet_line_density": 2.0}, "is the cable flooded"),
+        ({"payload.water.across_drag": 1.0}, "payload.water.across_drag: nothing across the plane"),
+        ({"environment.water.current.speeds_across": [0.1, 0.0]}, "nothing across the plane counts"),
         ({"payload.water.displaced_mass": 2000.0}, "is one of the three a slip"),
         ({"payload.wet_weight": 3500.0}, "if 3500 kg was meant"),
         ({"environment.water.current.speeds": [1.9, 1.5], "payload.wet_weight": 20000.0}, "a static slope"),

@@ -92,7 +92,7 @@ SLACK = {
     },
     "cable.axial_stiffness": 1e6, "cable.water": {"diameter": 0.03},
     "payload.water": {"quadratic_drag": 400.0, "vertical_drag": 600.0},
-    "environment.water": {"current": {"depths": [0.0, 100.0], "speeds": [0.5, 0.5], "speeds_across": [0.3, 0.3]}},
+    "environment.water": {"current": {"depths": [0.0, 110.0], "speeds": [0.5, 0.5], "speeds_across": [0.3, 0.3]}},
     "environment.vessel_heave": [{"kind": "sine", "amplitude": 2.0, "frequency": 1.2}],
     "initial.shape": "equilibrium",
 }  # fmt: skip

@@ -91,7 +91,7 @@ OF_THE_STRING = (
     steps.damping,
     steps.waves_that_leave,
 )
-"""Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep, and its step follows its waves and its damping."""
+"""Those of :data:`CHECKS` that a rope does not need: it may be slack, and steep, and takes the step it needs."""
 
 
 def checks_for(model: str) -> tuple[Check, ...]:
