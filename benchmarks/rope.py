@@ -143,7 +143,7 @@ def ours(elements: int) -> Swing:
     sines = [[{"kind": "sine", "amplitude": a, "frequency": 2.0 * np.pi / period}] for a, period in (HEAVE, SWAY)]
     run = simulate(load("work-class-3000m", {
         "winch.length": LENGTH, "duration": UNTIL, "environment.sea": None, "environment.vessel_ramp": RAMP,
-        "rope.vessel_heave": sines[0], "environment.vessel_motion": sines[1], "rope.current": [],
+        "environment.vessel_heave": sines[0], "environment.vessel_motion": sines[1], "environment.water.current": None,
         "rope.elements": elements, "control.period": 0.05, "grid.step": 0.05, "output.interval": 0.05,
     }))  # fmt: skip
     late = run.data.sel(time=slice(SETTLED, None))
@@ -167,18 +167,20 @@ def _input(segments: int) -> str:
     from umbilical.library import load
 
     scenario = load("work-class-3000m")
-    cable, rope, payload = scenario.cable, scenario.rope, scenario.payload
-    assert rope is not None
-    assert rope.axial_stiffness is not None
+    cable, payload = scenario.cable, scenario.payload
+    line, body = cable.water, payload.water
+    assert line is not None
+    assert body is not None
+    assert cable.axial_stiffness is not None
     assert payload.wet_weight is not None
     displaced = payload.mass - payload.wet_weight / scenario.environment.gravity
-    weight = (cable.line_density - WATER * np.pi * rope.diameter**2 / 4.0) * scenario.environment.gravity
-    stretch = (payload.wet_weight + weight * LENGTH / 2.0) * LENGTH / rope.axial_stiffness
+    weight = (cable.line_density - WATER * np.pi * line.diameter**2 / 4.0) * scenario.environment.gravity
+    stretch = (payload.wet_weight + weight * LENGTH / 2.0) * LENGTH / cable.axial_stiffness
     return INPUT.format(
-        diameter=rope.diameter, density=cable.line_density, stiffness=rope.axial_stiffness, across=rope.normal_drag,
-        added=rope.added_mass, along=rope.tangential_drag, top=-UNDER, bottom=-UNDER - LENGTH - stretch,
-        mass=payload.mass, volume=displaced / WATER, drag=rope.body_drag[2] / (0.5 * WATER),
-        body_added=rope.body_added_mass[2] / displaced, length=LENGTH, segments=segments,
+        diameter=line.diameter, density=cable.line_density, stiffness=cable.axial_stiffness, across=line.normal_drag,
+        added=line.added_mass, along=line.tangential_drag, top=-UNDER, bottom=-UNDER - LENGTH - stretch,
+        mass=payload.mass, volume=displaced / WATER, drag=body.vertical_drag / (0.5 * WATER),
+        body_added=body.vertical_added_mass / displaced, length=LENGTH, segments=segments,
         gravity=scenario.environment.gravity, water=WATER, depth=5.0 * LENGTH,
     )  # fmt: skip
 
