@@ -91,6 +91,7 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     ),
     "half the cable's inertia of the rope": (broken_rope.half_the_cable, ("rope, crosscheck",)),
     "a winch held over each step of the rope": (broken_rope.stages_at_the_start, ("rope, order in time",)),
+    "waves that do not push a rope": (broken_rope.water_that_pushes_nothing, ("sea, string and rope*",)),
     "three times the heave": (broken_rope.three_times_the_heave, ("rope, irregular*",)),
     "added mass that slides along": (
         broken.added_mass_that_slides_along,

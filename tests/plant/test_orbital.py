@@ -17,6 +17,8 @@ from umbilical.library.admit import admit
 from umbilical.plant import orbital
 from umbilical.plant.exogenous import Outside, Steps
 from umbilical.plant.layout import positions, to_nodal
+from umbilical.plant.rope.outside import RopeSampler
+from umbilical.plant.rope.water import flow_at, stir
 from umbilical.plant.seaway import waves_of
 from umbilical.plant.signals import fade
 from umbilical.scenario.document import freeze
@@ -110,11 +112,46 @@ def test_the_balance_of_powers_closes_in_waves() -> None:
     assert abs(run["displacement"].values - calm["displacement"].values).max() > 5e-3
 
 
+SPREAD = [SYSTEM | {"spreading": 3.0, "directions": 5}]
+
+
+def rope(**changes: Any) -> Scenario:
+    """A rope under the waves of :func:`at_sea`, in a current."""
+    sea = at_sea(**changes).model_dump(mode="json")["sea"]
+    current = {"depths": [0.0, 200.0], "speeds": [0.5, 0.5], "speeds_across": [-0.2, -0.2]}
+    there = {"model": "rope", "rope.elements": 4, "cable.axial_stiffness": 2e7, "environment.water.current": current}
+    return shallow(**there, **{"environment.sea": sea, "environment.vessel_ramp": 30.0, "duration": 0.05})
+
+
+@pytest.mark.parametrize("systems", [[SYSTEM], SPREAD], ids=["long-crested", "spread"])
+@pytest.mark.parametrize(("stage", "at"), [(0, 0.0), (1, 1.0), (2, 0.5)])
+def test_a_rope_feels_it_in_three_directions(stage: int, at: float, systems: list[Any]) -> None:
+    scenario, t, dt = rope(systems=systems), 71.3, 0.02
+    inputs = RopeSampler(scenario).sample(Steps(np.array([t]), np.array([t + dt]), np.zeros(0)))
+    place, found = inputs.plane.world["wave_place"][0], np.zeros((3, 6))
+    stir(inputs.water, inputs.plane.orbits, place[0], place[1])
+    largest = abs(exact(scenario.environment, 14.7, 80.0)).max()
+    for row, height in zip(found, (-10.0, -20.0, -70.0), strict=True):
+        flow_at(inputs.water, stage, height, row, 0, 1)
+    waves = [np.zeros((2, 3)), *(exact(scenario.environment, depth, t + at * dt) for depth in (20.0, 70.0))]
+    current = np.array([0.5, -0.2, 0.0, 0.0, 0.0, 0.0])
+    np.testing.assert_allclose(found, [current + both.ravel() for both in waves], atol=0.006 * largest)
+
+
+def test_a_rope_in_a_calm_sea_is_one_without_waves() -> None:
+    calm = rope(systems=[SYSTEM | {"significant_height": 0.0}])
+    with_table, without = simulate(calm), simulate(calm.replace({"environment.sea": None}))
+    np.testing.assert_array_equal(with_table["tension"].values, without["tension"].values)
+    np.testing.assert_array_equal(with_table["position"].values, without["position"].values)
+
+
 def test_waves_need_water_and_a_grid_that_sees_them() -> None:
     dry = {"environment.water": None, "cable.water": None, "payload.water": None}
     with pytest.raises(ScenarioError, match="drag and moved mass need water"):
         admit(string().replace(dry))
-    with pytest.raises(ScenarioError, match="no rope feels"):
+    with pytest.raises(ScenarioError, match="drag and moved mass need water"):
         admit(string().replace({"model": "rope", **dry}))
     coarse = string().replace({"winch.length": 3000.0, "environment.water.current": None})
     assert "63 grid.elements would see it" in " ".join(map(str, admit(coarse)))
+    deep = rope().replace({"winch.length": 3000.0, "environment.water.current": None, "duration": 20.0})
+    assert "63 rope.elements would see it" in " ".join(map(str, admit(deep)))

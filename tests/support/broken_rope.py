@@ -40,6 +40,7 @@ four_times_the_cable = another_rope(lambda r: {"density": 4.0 * r.density})
 axes_swapped = another_rope(
     lambda r: {"body_drag": np.ascontiguousarray(r.body_drag[::-1]), "normal_drag": 1.0 * r.normal_drag}
 )
+water_that_pushes_nothing = another_rope(lambda r: {"displaced": 0.0, "moved_water": 0.0 * r.moved_water})
 a_fifth_more_drag = another_rope(lambda r: {"normal_drag": 1.2 * r.normal_drag})
 
 

@@ -186,7 +186,8 @@ class Outside:
         self._sea = environment if in_plane and heaving(environment) else None
         known = scenario.winch, environment, scenario.cable, scenario.payload, scenario.duration
         self._stretching = stretching(*known) if in_plane else None
-        self._orbits: Any = orbital.orbits(environment, 1) if orbital.moves_the_water(environment) else None
+        directions = 1 if in_plane else 3
+        self._orbits: Any = orbital.orbits(environment, directions) if orbital.moves_the_water(environment) else None
         sinks = SINKING if in_plane and (heaving(environment) or environment.water) else ()
         self._wanted = WINCH + sinks + (STRETCHING if self._stretching else ())
 

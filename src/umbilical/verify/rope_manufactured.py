@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from umbilical.analysis.convergence import Curve
-from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, make_rope, make_water
+from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, make_rope, water_of
 from umbilical.plant.rope.rates import evaluate
 from umbilical.plant.rope.records import RopeState, make_state
 from umbilical.plant.rope.statics import node_positions, unknowns
@@ -34,7 +34,7 @@ class Driven:
         cable = CableData(p.stiffness, p.density, p.weight, p.diameter, p.normal, p.tangential, p.added_mass)
         body = BodyData(p.mass, p.body_weight, p.body_added, drag=p.body_drag)
         self.problem, self.elements = problem, elements
-        self.rope, self.water = make_rope(cable, body, elements), make_water(Current(velocities=(p.current,)))
+        self.rope, self.water = make_rope(cable, body, elements), water_of(Current(velocities=(p.current,)))
         self.state: RopeState = make_state(elements)
         self.sigma = node_positions(elements)
         self.state.now[:], self.state.body[0] = self.exact(0.0)

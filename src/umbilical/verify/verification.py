@@ -26,6 +26,7 @@ from umbilical.verify import (
     rope_manufactured,
     rope_waves,
     sea,
+    sea_pairs,
     static_deflection,
     tip_damper,
     water,
@@ -46,7 +47,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Instants": instants.CASES,
     "Whole loop": (*crosscheck.CASES, *cascade.CASES),
     "Invariance": invariance.CASES,
-    "Sea and heave": sea.CASES,
+    "Sea and heave": (*sea.CASES, *sea_pairs.CASES),
     "String in water": (*water.CASES, *water_pairs.CASES, *water_response.CASES),
     "Rope": (*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES),
 }

@@ -18,6 +18,7 @@ from umbilical.plant.rope.operators import W as WEIGHTS
 from umbilical.plant.rope.outside import RopeInputs
 from umbilical.plant.rope.records import Rope, RopeOutside, RopeState
 from umbilical.plant.rope.step import advance_rope
+from umbilical.plant.rope.water import stir
 from umbilical.relations.formulas import signed_square
 
 
@@ -140,6 +141,8 @@ def advance(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int,
     if not plant.ideal:
         give_thrust(plant, state.motors, now.body_thrust)
     push(state, inputs, i)
+    world = inputs.plane.world
+    stir(inputs.water, inputs.plane.orbits, world[i, START].wave_place, world[i, END].wave_place)
     advance_rope(plant.rope, state.rope, state.stage, inputs.loads[i], inputs.water, dt, plant.booked)
 
 

@@ -13,6 +13,7 @@ from umbilical.plant.seaway import directions_of, spectrum_of, waves_of
 from umbilical.plant.top import top_at
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
+from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Grid
 from umbilical.scenario.ship import RaoShip
 from umbilical.scenario.signals import Waves
@@ -85,25 +86,23 @@ def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
 
 
 def orbital_motion(
-    environment: Environment, winch: Winch, duration: float, grid: Grid, model: str
+    environment: Environment, winch: Winch, duration: float, grid: Grid, model: str, rope: Rope | None
 ) -> Iterator[Finding]:
     """Waves that move the water have water to move, and a grid that sees how it fades with depth."""
     if (sea := environment.sea) is None or not moves_the_water(environment) or not sound(environment):
         return
     key = "environment.sea.orbital_below"
-    if model == "rope":
-        yield Problem(key, "given", 'left out where model = "rope"', "no rope feels the orbital motion of waves yet",
-                      "leave it out")  # fmt: skip
-    elif environment.water is None:
+    name, elements = ("rope", (rope or Rope()).elements) if model == "rope" else ("grid", grid.elements)
+    if environment.water is None:
         yield Problem(key, "given", "together with environment.water", "drag and moved mass need water",
                       "[environment.water], [cable.water], [payload.water]")  # fmt: skip
     elif sea.systems and not any(True for _ in tables_of_the_winch(winch, duration)):
         peak = max(float(wave_number(2.0 * np.pi / spectrum_of(system).peak_period, environment.gravity))
                    for system in sea.systems)  # fmt: skip
-        element = float(top_at(winch, np.linspace(0.0, duration, 101)).length.max()) / grid.elements
+        element = float(top_at(winch, np.linspace(0.0, duration, 101)).length.max()) / elements
         if element > _UNSEEN / peak:
             yield Notice(key, f"the water's motion fades over {1.0 / peak:.3g} m and an element is {element:.3g} m "
-                         f"long: more than {int(np.ceil(element * grid.elements * peak / _UNSEEN))} grid.elements "
+                         f"long: more than {int(np.ceil(element * elements * peak / _UNSEEN))} {name}.elements "
                          "would see it")  # fmt: skip
 
 

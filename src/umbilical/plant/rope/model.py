@@ -19,6 +19,7 @@ from umbilical.plant.rope.records import (
     Water,
     make_above,
     make_state,
+    make_water,
     vector_of,
 )
 from umbilical.plant.rope.statics import hanging_shape, jacobian, node_positions, put_shape, settle
@@ -160,7 +161,7 @@ class RopeModel:
         current = current or Current()
         moving = bool(np.any(current.velocities))
         self.rope = make_rope(cable, body, elements, moving=moving or bool(np.any(body.drag) or np.any(body.damping)))
-        self.water = make_water(current)
+        self.water = water_of(current)
         self.largest_step = step
         self.state = make_state(elements)
         self._force, self._thrust = vector_of(force), np.zeros(3)
@@ -272,8 +273,8 @@ class RopeModel:
         return np.moveaxis(columns.reshape(5, 3, n), 1, 0)
 
 
-def make_water(current: Current) -> Water:
+def water_of(current: Current) -> Water:
     """Steady water for the kernels."""
     flow = np.zeros((STAGES, len(current.heights), 6))
     flow[:, :, :3] = np.array(current.velocities)
-    return Water(np.array(current.heights, dtype=float), flow)
+    return make_water(np.array(current.heights, dtype=float), flow)

@@ -9,14 +9,15 @@ from numpy.typing import ArrayLike
 
 from umbilical.plant import signals
 from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps
-from umbilical.plant.rope.records import STAGES, RopeOutside, Water
+from umbilical.plant.orbital import levels_of
+from umbilical.plant.rope.records import STAGES, RopeOutside, Water, make_water
 from umbilical.plant.seaway import sheave
 from umbilical.plant.signals import Array, Side
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
 
-CALM = Water(np.zeros(1), np.zeros((STAGES, 1, 6)))
+CALM = make_water(np.zeros(1), np.zeros((STAGES, 1, 6)))
 """Water at rest."""
 
 
@@ -50,16 +51,16 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
 
 
 def still_water(scenario: Scenario) -> Water:
-    """The water for the kernels: the current, which does not change in time."""
-    water = scenario.environment.water
+    """The water for the kernels: the current, which does not change in time, and the waves before they begin."""
+    water, waves = scenario.environment.water, levels_of(scenario.environment)
     if water is None or water.current is None:
-        return CALM
+        return make_water(CALM.heights, CALM.flow, waves)
     current = water.current
     flow = np.zeros((STAGES, len(current.depths), 6))
     flow[:, :, 0] = current.speeds
     if current.speeds_across is not None:
         flow[:, :, 1] = current.speeds_across
-    return Water(-np.array(current.depths), flow)
+    return make_water(-np.array(current.depths), flow, waves)
 
 
 def forces_on_the_body(scenario: Scenario, t: ArrayLike, side: Side = "right") -> Any:

@@ -12,6 +12,7 @@ import numpy as np
 
 from umbilical.frames import Frame, real, vector
 from umbilical.plant.layout import positions, to_elements
+from umbilical.plant.orbital import LEVELS, NONE, Levels
 
 AXES = 3
 STAGES = 3
@@ -87,15 +88,24 @@ class RopeEnds(Frame):
 
 
 class Water(NamedTuple):
-    """Velocity and acceleration of the water at some heights, at the stages of one step.
+    """Velocity and acceleration of the water at some heights, at the stages of one step, and the waves' on top.
 
     Attributes:
         heights: m, decreasing from the surface, shape (levels,); beyond them the outermost values hold.
         flow: velocity, m/s, and acceleration, m/s2, shape (stages, levels, 6).
+        waves: levels of the waves' orbital motion, below the sheave's mean height.
+        orbit: velocity and rate there, along x, y and z, shape (stages, 2, 3, levels).
     """
 
     heights: np.ndarray
     flow: np.ndarray
+    waves: Levels
+    orbit: np.ndarray
+
+
+def make_water(heights: np.ndarray, flow: np.ndarray, waves: Levels = NONE) -> Water:
+    """Water whose waves have not begun."""
+    return Water(heights, flow, waves, np.zeros((STAGES, 2, AXES, LEVELS)))
 
 
 class RopeState(NamedTuple):

@@ -5,7 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.compile import kernel
-from umbilical.plant.rope.records import Water
+from umbilical.plant.orbital import at_level, find_level, look_at_waves
+from umbilical.plant.rope.records import AXES, Water
+
+
+@kernel
+def add_waves(water: Water, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
+    """Add the waves' motion at a height over the sheave's mean height to ``out``, as :func:`flow_at`."""
+    level = find_level(water.waves, -height)
+    if level < 0.0:
+        return
+    for kind in range(2):
+        for i in range(AXES):
+            out[at + (AXES * kind + i) * step] += at_level(water.orbit[stage, kind, i], level)
 
 
 @kernel
@@ -21,6 +33,17 @@ def flow_at(water: Water, stage: int, height: float, out: np.ndarray, at: int, s
     above, below = water.flow[stage, k - 1], water.flow[stage, min(k, levels - 1)]
     for c in range(6):
         out[at + c * step] = above[c] + share * (below[c] - above[c])
+    if water.waves.deepest > 0.0:
+        add_waves(water, stage, height, out, at, step)
+
+
+@kernel
+def stir(water: Water, orbits: np.ndarray, start: float, end: float) -> None:
+    """The waves' motion at the stages of a step from its places in the rows of a stretch (``plant/orbital.py``)."""
+    if water.waves.deepest > 0.0:
+        look_at_waves(orbits, start, water.orbit[0])
+        look_at_waves(orbits, end, water.orbit[1])
+        look_at_waves(orbits, 0.5 * (start + end), water.orbit[2])
 
 
 @kernel
