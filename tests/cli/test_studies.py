@@ -233,6 +233,7 @@ def test_presets_list_print_and_copy_studies(umbilical, tmp_path):
 
 def test_tune_ends_with_a_scenario_to_run(umbilical, tmp_path):
     small = ["scenario.duration=0.3", "scenario.grid.elements=8", "members=2", "tuning.trials=5"]
+    small += ['tuning.constraints=["certificate"]']
     changes = [word for change in small for word in ("--set", change)]
     done = umbilical("tune", "gain-tuning", *changes, "--out", tmp_path / "out", "--json")
     assert done.code == 0

@@ -132,7 +132,9 @@ def test_gains_that_are_refused_are_no_answer():
 )
 def test_the_patch_is_the_scenario_that_was_tuned(tmp_path, changes):
     """The study's own changes are in it, and those of the arm."""
-    study = load_study("gain-tuning").replace({"arms.1.changes": changes, "tuning.gains": GAIN})
+    study = load_study("gain-tuning")
+    own = {key: value for key, value in study.changes.items() if key.startswith(("control.nominal", "sensors"))}
+    study = study.replace({"changes": own, "arms.1.changes": changes, "tuning.gains": GAIN})
     patch = tune.to_patch(study, {"control.disturbance_observer.gain": 2.5})
     (tmp_path / "tuned.toml").write_text(patch)
     assert study.changes

@@ -90,13 +90,13 @@ def map_in_words(result: StudyResult) -> str:
 
 
 def front(searched: tune.Tuned) -> str:
-    """Some of the front, the paper's gains on the same draws, and what the linearised sampled loop says of each."""
+    """Some of the front, the two gains of the paper on the same draws, and what the linearised sampled loop says of each."""
     names = [label_of(objective) for objective in tune.tuning_of(searched.study).objectives]
     rows = [["", *(f"`{key}`" for key in PAPERS), *names, "thrust up to", "phase", "lag"]]
     papers = tune.Trial(PAPERS, tune.judge(searched.study, PAPERS, {}, threads(default_jobs())))
     shown = np.unique(np.linspace(0, len(searched.front) - 1, SHOWN).round().astype(int))
     told_of = [(f"`{searched.files[k]}`", searched.front[k]) for k in shown]
-    for label, trial in (*told_of, ("the paper's gains", papers)):
+    for label, trial in (*told_of, ("the two of the paper", papers)):
         numbers = [*(trial.gains[key] for key in PAPERS), *trial.verdict.values]
         tuned = searched.study.scenario.replace({**searched.study.changes, **trial.gains})
         rows.append([label, *(f"{number:.3g}" for number in numbers), *margins(tuned)])
