@@ -49,6 +49,11 @@ def test_what_moves_the_limit(changes: dict[str, object], rises: bool) -> None:
     assert (limit(load_operation("work-class", changes)) > limit(load_operation("work-class"))) is rises
 
 
+def test_compensation_that_follows_nothing_is_none() -> None:
+    idle = load_operation("work-class", {"compensation": {"gain": 0.0, "lag": 0.3, "bandwidth": 6.0}})
+    assert limit(idle) == limit(load_operation("work-class"))
+
+
 def test_more_criteria_never_raise_the_limit() -> None:
     operation = load_operation("work-class")
     both = limit(operation, "slack=1e-2/3h", "top_tension:130e3=1e-2/3h")

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from umbilical import load_operation, operate
+from umbilical import load, load_operation, operate, simulate
 from umbilical.errors import ScenarioError
 from umbilical.scenario.ship import MOTIONS, RaoShip
 from umbilical.screening.criteria import parse_criterion
@@ -27,6 +27,27 @@ phase = "lag"
 axes = "port_up"
 waves = "towards"
 sheave_forward = 10.0
+"""
+
+
+RUN = """extends = "ringdown"
+name = "in waves"
+duration = 12.0
+[environment]
+vessel_ramp = 4.0
+[environment.sea]
+plane = 0.0
+[[environment.sea.systems]]
+significant_height = 1.5
+peak_period = 10.0
+heading = 2.5
+[environment.sea.vessel]
+kind = "rao"
+file = "ship.csv"
+phase = "lag"
+axes = "port_up"
+waves = "towards"
+sheave_up = 8.0
 """
 
 
@@ -141,6 +162,16 @@ def test_a_spreadsheet_of_the_closed_form_gives_its_limits(tmp_path: Path, unit:
     )
     assert own.limit[0, 0, 0] == pytest.approx(box.limit[0, 0, 0], rel=0.05)  # ten frequencies, linear between
     assert "no roll, yaw" in " ".join(own.notices())
+
+
+def test_pitch_in_degrees_and_in_radians_moves_a_run_alike(tmp_path: Path) -> None:
+    runs = []
+    for unit in ("deg/m", "rad/m"):
+        write(tmp_path / "ship.csv", pitch_unit=unit)
+        (tmp_path / "run.toml").write_text(RUN)
+        runs.append(simulate(load(tmp_path / "run.toml"))["displacement"].values)
+    assert abs(runs[0]).max() > 0.1
+    np.testing.assert_allclose(runs[1], runs[0], atol=1e-9)
 
 
 def test_a_file_with_a_wrong_column_or_convention_is_refused(tmp_path: Path) -> None:

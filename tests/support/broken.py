@@ -17,7 +17,7 @@ from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
 from umbilical.control.outer import boundary
-from umbilical.plant import cable, exogenous, faults, signals, winch
+from umbilical.plant import cable, exogenous, faults, orbital, seaway, signals, winch
 from umbilical.plant.checks import motion
 from umbilical.plant.forces import drag
 from umbilical.relations import tension
@@ -49,7 +49,7 @@ def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
 
 def forget() -> None:
     """Drop what the engine keeps from run to run: it depends on the functions that are broken here."""
-    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_top):
+    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_top, seaway._sheave, orbital._orbits):
         kept.cache_clear()
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from umbilical.plant import exogenous, stretching
+from umbilical.plant import exogenous, regular, seaway, stretching
 from umbilical.relations import axial
 from umbilical.screening import operate, response
 from umbilical.sea import components, rao, spectrum, vessel
@@ -109,6 +109,54 @@ def drive_that_leads(patch: pytest.MonkeyPatch) -> None:
 
     for room in (response, sea):
         patch.setattr(room, "residual", wrong)
+
+
+def waves_that_repeat_themselves(patch: pytest.MonkeyPatch) -> None:
+    """A table of waves that begins again after 51.2 s."""
+    right = regular.waves
+    patch.setattr(regular, "waves", lambda term, t, order=0: right(term, np.mod(t, 51.2), order))
+
+
+def squared_amplitude(patch: pytest.MonkeyPatch) -> None:
+    """Waves as high as the square of what they are, in m2."""
+    right = seaway.discretise
+
+    def wrong(sea_state: spectrum.Spectrum, count: int, **options: Any) -> components.Components:
+        waves = right(sea_state, count, **options)
+        return waves._replace(amplitude=waves.amplitude**2)
+
+    patch.setattr(seaway, "discretise", wrong)
+
+
+def vessel_that_follows_the_water(patch: pytest.MonkeyPatch) -> None:
+    """A table that is not looked into."""
+    nothing, all_of_it = np.zeros_like, np.ones_like
+
+    def wrong(self: rao.RaoVessel, omega: np.ndarray, heading: float) -> vessel.Motions:
+        moved, still = all_of_it(omega) + 0j, nothing(omega) + 0j
+        return vessel.Motions(still, moved, moved, still, still, still)
+
+    patch.setattr(rao.RaoVessel, "motions", wrong)
+
+
+def headings_of_half_a_turn(patch: pytest.MonkeyPatch) -> None:
+    """Headings outside 0 to 180 degrees are taken for the nearest within."""
+    right = vessel.BoxVessel.motions
+    patch.setattr(
+        vessel.BoxVessel, "motions", lambda self, omega, heading: right(self, omega, float(np.clip(heading, 0.0, 3.1)))
+    )
+
+
+def every_phase_a_lag(patch: pytest.MonkeyPatch) -> None:
+    """A table of RAOs whose phases are a lag, whatever it declares, in waves that no check of long waves sees."""
+    right = rao.rows_of
+
+    def wrong(ship: Any, name: str) -> np.ndarray:
+        lagging = right(ship.model_copy(update={"phase": "lag"}), name)
+        return np.where(np.array(ship.frequency) > 0.45, lagging, right(ship, name))
+
+    patch.setattr(rao, "rows_of", wrong)
+    patch.setattr(rao, "_of_table", rao._of_table.__wrapped__)
 
 
 def _module(function: Any) -> Any:

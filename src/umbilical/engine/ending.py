@@ -15,7 +15,7 @@ from umbilical.engine.setup import Setup
 from umbilical.plant.exogenous import STRETCHING
 from umbilical.plant.forces.table import WORKS
 from umbilical.plant.layout import positions
-from umbilical.plant.seaway import heaving
+from umbilical.plant.seaway import may_heave
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.findings import Notice
 from umbilical.scenario.scenario import Scenario
@@ -115,7 +115,7 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
     motion = {name: named[name] for name in ("tip_velocity", "length")}
     works = np.stack([named[name] for name in WORKS if name in named], axis=1)
     outside = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed", *STRETCHING[:2])}
-    if heaving(scenario.environment):
+    if may_heave(scenario.environment):
         named["top_tension"], named["end_tension"] = tension_at_ends(scenario, length=named["length"], **outside)
     named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion, **outside)
     named["energy_residual"] = residual(named["energy"], works)

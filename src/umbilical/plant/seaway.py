@@ -81,6 +81,11 @@ def heaving(environment: Environment) -> Signal:
     return given + sheave(environment).up if environment.sea and environment.sea.heave else given
 
 
+def may_heave(environment: Environment) -> bool:
+    """Whether heave enters the string's tension, be the sea as calm as it may."""
+    return bool(environment.vessel_heave) or (environment.sea is not None and environment.sea.heave)
+
+
 @lru_cache(maxsize=8)
 def _sheave(sea: SeaState, gravity: float) -> Sheave:
     vessel, point = vessel_of(sea.vessel, gravity), sheave_of(sea.vessel)
