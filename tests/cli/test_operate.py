@@ -48,3 +48,28 @@ def test_what_cannot_be_asked_is_refused(umbilical, arguments, words):
     done = umbilical("operate", "work-class", *arguments)
     assert done.code in (2, 4)
     assert words in done.err
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("height", "code", "word"), [("1.0", 0, "is CONFIRMED"), ("5.5", 7, "is NOT workable")])
+def test_a_height_is_held_against_the_rope(umbilical, height, code, word):
+    asked = (*ONE, "--criterion", "slack=1e-2/10min", "--height", height, "--confirm", "2")
+    done = umbilical(*asked)
+    assert done.code == code
+    assert word in done.out.splitlines()[0]
+    assert ("2 seeds of 800 s, roughly" in done.err) == (code == 0)
+    if code == 0:
+        document = umbilical(*asked, "--json").document()
+        assert (document["verdict"], document["confirmation"]["completed"]) == ("HOLDS", [True, True])
+
+
+def test_what_the_rope_cannot_confirm_is_refused(umbilical):
+    drive = ("--set", "compensation.lag=0.05", "--set", "compensation.bandwidth=6")
+    done = umbilical(*ONE, "--height", "1", "--confirm", "2", *drive)
+    assert done.code == 2
+    assert "compensation" in done.err
+    assert umbilical("operate", "work-class", "--seas", "none.csv", "--confirm", "2").code == 2
+
+
+def test_the_headline_of_the_json_is_the_verdicts(umbilical):
+    assert "is NOT workable" in umbilical(*ONE, "--height", "2.7", "--json").document()["headline"]

@@ -32,7 +32,8 @@ def conclude(
         The exit code.
     """
     if as_json:
-        say_json({**conclusion.document(), "files": dict(files or {}), **document()})
+        verdict = conclusion.document()  # first, and not to be contradicted by what a result says of itself
+        say_json({**verdict, "files": dict(files or {}), **document(), **verdict})
     else:
         written = [f"  {role}: {path}" for role, path in (files or {}).items()]
         say("\n".join(filter(None, [conclusion.headline, text(), *written])))

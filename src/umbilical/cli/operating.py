@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Changes, Force, Json, Plot
+from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
 from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.faces.conclusion import Conclusion
 from umbilical.faces.text import table
@@ -37,6 +37,18 @@ def operate(
         float | None,
         Option("--height", metavar="HS", help="Is this Hs workable everywhere? If not, exit 7."),
     ] = None,
+    confirm: Annotated[
+        int | None,
+        Option(
+            "--confirm",
+            metavar="SEEDS",
+            min=1,
+            max=10000,
+            help="Hold --height, or the lowest limit, against the "
+            "rope in the time domain, with so many seeds of the sea (10 is usual).",
+        ),
+    ] = None,
+    jobs: Jobs = None,
     seas: Annotated[
         Path | None,
         Option("--seas", metavar="FILE", help="Scatter table or hindcast (.csv, .nc) in place of --period."),
@@ -57,9 +69,11 @@ def operate(
       umbilical operate work-class --criterion slack=1e-2/3h --criterion top_tension:250e3=1e-2/3h
       umbilical operate work-class --set compensation.lag=0.05 --set compensation.bandwidth=6
       umbilical operate work-class --depth 3000 --seas hindcast.csv --needed 6 --plot windows.png
+      umbilical operate work-class --depth 3000 --period 8 --heading 135 --height 2.3 --confirm 10
 
-    No time is integrated: heave of the vessel, elastic cable and body are linear, the body's drag is linearised for
-    each sea. The exit code is 7 when --height is not workable somewhere.
+    Heave of the vessel, elastic cable and body are linear, the body's drag is linearised for each sea; time is
+    integrated with --confirm only. The exit code is 7 when --height is not workable somewhere, or the rope does not
+    confirm it.
     """
     import numpy as np
 
@@ -80,15 +94,37 @@ def operate(
     if seas:
         if height is not None:
             raise BadParameter("--seas has heights of its own", param_hint="'--height'")
+        if confirm is not None:
+            raise BadParameter("one sea is confirmed: --period, --heading and --depth", param_hint="'--confirm'")
         files_of = {"out": out, "plot": plot, "as_json": as_json, "force": force}
         return _windows(loaded, seas, criteria, axes, _within(needed, "--needed", 0.01, 1e4), files_of)
     with bar("looking for the limits") as advance:
         found = limits(loaded, criteria, **axes, progress=advance)
     files = _store(found, out, plot, force)
+    if confirm is not None and (height is None or found.holds(height)):
+        return _confirmed(found, height, confirm, jobs, files, as_json)
     return conclude(
         _workable(found, height),
         text=lambda: "\n".join(_report(found)),
         document=lambda: {**found.to_dict(), "height": height},
+        files=files,
+        as_json=as_json,
+    )
+
+
+def _confirmed(
+    found: Operability, height: float | None, seeds: int, jobs: int | None, files: dict[str, str], as_json: bool
+) -> int:
+    """Hold the height that was asked for, or the lowest limit, against the rope; the verdict is that of its runs."""
+    from umbilical.cli.confirming import confirm
+    from umbilical.faces import confirmation
+
+    runs = confirm(found, height or float(found.limit[found.worst]), seeds, jobs)
+    verdict = confirmation.conclusion(runs)
+    return conclude(
+        Conclusion(verdict.decision, f"{verdict.headline}; screening: {found.summary()}"),
+        text=lambda: "\n".join([confirmation.text(runs), "", "the frequency domain:", *_report(found)]),
+        document=lambda: {**found.to_dict(), "height": height, "confirmation": confirmation.document(runs)},
         files=files,
         as_json=as_json,
     )

@@ -202,7 +202,7 @@ def _with_typical_loss(bar: Bar) -> Bar:
     return bar if bar.loss_factor > 0.0 else bar._replace(loss_factor=TYPICAL_LOSS)
 
 
-def steepest_height(period: np.ndarray) -> np.ndarray:
+def steepest_height(period: float | np.ndarray) -> Any:
     """Hs of the steepest sea of a peak period, m."""
     return STEEPEST * 9.81 * period**2 / (2.0 * np.pi)
 

@@ -21,6 +21,8 @@ _STIFF, _WEAK = 100.0, 10.0
 """EA over the largest static load: below the first a stretch of 1 % is told, below the second refused."""
 _SECONDS = 2.5e-7
 """Of computing for a node in a step, roughly."""
+_SECONDS_OF_WAVE = 2e-8
+"""Of the vessel's motion in a wave during a step, likewise."""
 
 
 def signals_of(rope: Rope) -> Iterator[tuple[str, Signal, str]]:
@@ -105,6 +107,14 @@ def start(scenario: Scenario) -> Iterator[Finding]:
             str(error),
             "a weaker current, or a heavier body",
         )
+
+
+def seconds_of(scenario: Scenario) -> float:
+    """Time the run will take, s, roughly: nodes and waves at every step."""
+    count = scenario.duration / min(rope_step(scenario), scenario.control.period, scenario.grid.step)
+    sea = scenario.environment.sea
+    waves = sum(system.components for system in sea.systems) if sea else 0
+    return (_SECONDS * 5 * section(scenario).elements + _SECONDS_OF_WAVE * waves) * count
 
 
 def steps(scenario: Scenario) -> Iterator[Finding]:

@@ -36,11 +36,16 @@ def result_size(scenario: Scenario) -> float:
     return 8.0 * numbers * (scenario.duration / scenario.output.interval + 1.0)
 
 
+def memory_of(scenario: Scenario) -> float:
+    """Bytes of memory a run takes until its result is written, at the most."""
+    return _COPIES * result_size(scenario)
+
+
 def large_result(scenario: Scenario) -> Iterator[Finding]:
     """A large result is announced."""
     size = result_size(scenario)
     if size >= LARGE:
-        memory = machine.in_words(_COPIES * size)
+        memory = machine.in_words(memory_of(scenario))
         yield Notice("output.interval", f"the result takes {machine.in_words(size)} on disk, {memory} of memory")
 
 
@@ -50,7 +55,7 @@ def check_memory(scenario: Scenario) -> None:
     Raises:
         ScenarioError: with what it needs and what there is.
     """
-    need, there = _COPIES * result_size(scenario), machine.memory()
+    need, there = memory_of(scenario), machine.memory()
     if need > there:
         longest = scenario.output.interval * need / there
         problem = Problem(

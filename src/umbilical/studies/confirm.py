@@ -1,0 +1,185 @@
+"""A limit of the frequency domain held against the rope: seeds of the sea, each as long as the criterion's time.
+
+Of each criterion the share of what it allows is followed: 1 is where it is passed. The largest shares of blocks of ten
+minutes follow a Gumbel distribution in their squares, exactly so for a narrow-banded Gaussian process; what of it is
+passed with the accepted probability within the accepted time, is 1 at a limit that is right.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from scipy.stats import CensoredData, binom, gumbel_r
+
+from umbilical.analysis.paired import LEVEL, Estimate
+from umbilical.engine.simulate import simulate
+from umbilical.run import Run, Status
+from umbilical.scenario.scenario import Scenario
+from umbilical.studies.engines import in_order
+
+if TYPE_CHECKING:
+    from umbilical.screening.criteria import Criterion
+
+BLOCK = 600.0
+"""Seconds of which the largest share counts once."""
+_RESAMPLED = 200
+_FEWEST = 3
+"""Blocks of a run, however short it is."""
+
+
+class Reached(NamedTuple):
+    """What the runs say of one criterion.
+
+    Attributes:
+        share: of what is allowed, that is passed with the accepted probability within the accepted time.
+        passed: runs in which the criterion was passed.
+        too_many: whether so many runs would pass it in one of forty cases at the most, were the limit right.
+    """
+
+    share: Estimate
+    passed: int
+    too_many: bool
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """A limit held against runs of the rope.
+
+    Attributes:
+        scenario: what was run, its sea at the limit.
+        criteria: what must hold.
+        height: Hs of the sea, m.
+        seeds: of the sea.
+        completed: of each run.
+        shares: largest share of what is allowed, shape (criteria, completed runs, blocks).
+        reached: of each criterion.
+    """
+
+    scenario: Scenario
+    criteria: tuple[Criterion, ...]
+    height: float
+    seeds: np.ndarray
+    completed: np.ndarray
+    shares: np.ndarray
+    reached: tuple[Reached, ...]
+
+    @property
+    def worst(self) -> int:
+        """Place of the criterion that is nearest to being passed."""
+        return int(np.argmax([found.share.value for found in self.reached]))
+
+    @property
+    def confirmed_height(self) -> float:
+        """Hs, m, at which every criterion is kept by its whole interval, if all shares are proportional to Hs."""
+        return self.height / max(found.share.high for found in self.reached)
+
+
+def confirm(
+    scenario: Scenario, criteria: Sequence[Criterion], height: float, *, settled: float, seeds: int = 10,
+    workers: int | None = None, progress: Callable[[float], None] | None = None,
+) -> Confirmation:  # fmt: skip
+    """Run seeds of a sea, and hold what they reach against what is allowed.
+
+    Args:
+        scenario: of the rope, hanging at rest at the start, as ``screening.on_the_rope`` makes it.
+        criteria: what must hold, each with its accepted probability and time.
+        height: Hs of the sea, m.
+        settled: s from which on the run counts.
+        seeds: how many, from 1 on; their numbers are 0, 1, ...
+        workers: threads; results do not depend on them. All cores by default.
+        progress: called with the share that is done.
+
+    Raises:
+        ScenarioError: the scenario is refused.
+    """
+    chosen = np.arange(seeds)
+    changed = [scenario.replace({"environment.sea.seed": seed}) for seed in chosen.tolist()]
+    found = in_order(lambda each: _look(each, criteria, settled), changed, progress, workers)
+    completed = np.array([shares is not None for shares, _ in found])
+    good = [(shares, passed) for shares, passed in found if shares is not None]
+    if not good:
+        nothing = Reached(Estimate(np.nan, np.nan, np.nan), 0, False)
+        return Confirmation(scenario, tuple(criteria), height, chosen, completed, np.zeros((len(criteria), 0, 0)),
+                            (nothing,) * len(criteria))  # fmt: skip
+    shares = np.stack([part for part, _ in good], axis=1)
+    passed = np.sum([part for _, part in good], axis=0)
+    ran = scenario.duration - settled
+    reached = tuple(_reached(shares[k], int(passed[k]), each, ran) for k, each in enumerate(criteria))
+    return Confirmation(scenario, tuple(criteria), height, chosen, completed, shares, reached)
+
+
+def _look(scenario: Scenario, criteria: Sequence[Criterion], settled: float) -> tuple[np.ndarray | None, np.ndarray]:
+    """Largest shares of the blocks of a run, shape (criteria, blocks), and which criteria it passed anywhere."""
+    run = simulate(scenario)
+    if run.status is not Status.COMPLETED:
+        return None, np.zeros(len(criteria), dtype=bool)
+    late = run["time"].values >= settled
+    blocks = max(_FEWEST, round((scenario.duration - settled) / BLOCK))
+    shares = [_peaks(share_of(run, each)[late], blocks) for each in criteria]
+    return np.array(shares), np.array([_passed(run, each) for each in criteria])
+
+
+def share_of(run: Run, criterion: Criterion) -> np.ndarray:
+    """Share of what a criterion allows, at each stored sample; against the cable at rest at the start."""
+    match criterion.name:
+        case "top_tension":
+            top = run["top_tension"].values
+            return (top - top[0]) / max(criterion.level - top[0], np.finfo(float).tiny)
+        case "body_heave":
+            height = run["body_position"].values[:, 2]
+            return (height - height[0]) / max(criterion.level, np.finfo(float).tiny)
+    tension = run["tension"].values
+    return (1.0 - tension / tension[0]).max(axis=1)
+
+
+def _passed(run: Run, criterion: Criterion) -> bool:
+    """By every control sample where metrics have it, for a snap falls between stored ones."""
+    match criterion.name:
+        case "slack":
+            return run.metrics["slack_share"] > 0.0
+        case "top_tension":
+            return run.metrics["top_tension_peak"] > criterion.level
+    return bool(share_of(run, criterion).max() > 1.0)
+
+
+def _peaks(values: np.ndarray, blocks: int) -> np.ndarray:
+    """Largest value of each block, of the parabola through three samples where it is inside."""
+    left, here, right = values[:-2], values[1:-1], values[2:]
+    bend = 2.0 * here - left - right
+    top = (here >= left) & (here >= right) & (bend > 0.0)
+    peaks = np.where(top, here + (right - left) ** 2 / (8.0 * np.where(top, bend, 1.0)), here)
+    return np.array([part.max() for part in np.array_split(peaks, blocks)])
+
+
+def _reached(shares: np.ndarray, passed: int, criterion: Criterion, ran: float) -> Reached:
+    """Estimate for one criterion of runs that each count ``ran`` seconds; ``shares`` of shape (runs, blocks)."""
+    runs, blocks = shares.shape
+    allowed = 1.0 - (1.0 - criterion.probability) ** (ran / blocks / criterion.duration)
+    in_a_run = 1.0 - (1.0 - criterion.probability) ** (ran / criterion.duration)
+    limit = 1.0 if criterion.name == "slack" else np.inf
+    squares = np.maximum(shares.ravel(), 0.0) ** 2
+    too_many = bool(binom.sf(passed - 1, runs, in_a_run) < 0.025)
+    if np.ptp(squares) == 0.0 or squares.size < _FEWEST:
+        return Reached(Estimate(float(shares.max()), 0.0, np.inf), passed, too_many)
+    fit = _fit(squares, limit)
+    dice = np.random.default_rng(0)
+    drawn = np.asarray(gumbel_r.rvs(*fit, size=(_RESAMPLED, squares.size), random_state=dice))
+    again = [_share(_fit(np.minimum(sample, limit), limit), allowed) for sample in drawn]
+    low, high = np.quantile(again, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
+    return Reached(Estimate(_share(fit, allowed), float(low), float(high)), passed, too_many)
+
+
+def _share(fit: tuple[float, float], probability: float) -> float:
+    return float(np.sqrt(max(gumbel_r.ppf(1.0 - probability, *fit), 0.0)))
+
+
+def _fit(squares: np.ndarray, limit: float) -> tuple[float, float]:
+    """Location and scale by maximum likelihood; where the cable is slack a share is 1 or more."""
+    beyond = squares >= limit
+    if not beyond.any():
+        return gumbel_r.fit(squares)
+    data = CensoredData(uncensored=squares[~beyond], right=np.full(int(beyond.sum()), limit))
+    return gumbel_r.fit(data)
