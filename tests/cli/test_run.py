@@ -23,6 +23,22 @@ def test_text_has_the_metrics_the_assumptions_and_what_was_not_stored(umbilical)
     assert "nothing was stored" in done.out
 
 
+def test_slope_and_tension_are_told_before_the_first_step(umbilical, monkeypatch):
+    done = umbilical("run", "work-class-1000m-current", "--set", "duration=0.5", "--json")
+    assert "static slope up to 0.02" in done.err
+    assert "tension 35000 to 75456.4 N" in done.err
+    statics = done.document()["statics"]
+    assert (
+        statics == umbilical("run", "work-class-1000m-current", "--set", "duration=0.5", "--json").document()["statics"]
+    )
+    monkeypatch.setattr("umbilical.cli.progress.simulate_visibly", lambda *_: pytest.fail("told after it"))
+    with pytest.raises(pytest.fail.Exception, match="told after it"):
+        umbilical("run", "work-class-1000m-current")
+    shown = umbilical("show", "work-class-1000m-current")
+    assert "before the first step: static slope up to 0.0337 at x/l = 0" in shown.out
+    assert umbilical("show", "observation-300m", "--json").document()["statics"] is None
+
+
 def test_json_is_one_object_with_the_promised_keys(umbilical):
     document = umbilical("run", "paper", *SHORT, "--json").document()
     assert document["status"] == "COMPLETED"

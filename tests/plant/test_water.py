@@ -28,30 +28,54 @@ def at_sea(**more: Any) -> Scenario:
     return open_loop(winch={"law": "constant", "length": 100.0}).replace({**SEA, **more})
 
 
+FAST_UP = {"winch": {"law": "speed", "start_length": 100.0, "speed": -90.0}, "duration": 0.5,
+           "payload.water.vertical_drag": 0.0, "cable.water.tangential_drag": 0.0}  # fmt: skip
+WEAK = {"environment.water.current.speeds": [1.9, 1.5], "payload.wet_weight": 20000.0}
 REFUSED: list[tuple[dict[str, Any], str, str]] = [
-    ({"environment.water": None}, "cable.water", "needs|need the density"),
-    ({"cable.wet_line_density": None}, "cable.wet_line_density", "4.12395 kg/m"),
-    ({"cable.wet_line_density": 6.0}, "cable.wet_line_density", "at most cable.line_density"),
-    ({"cable.line_density": 1.0, "cable.wet_line_density": 0.5}, "cable.line_density", "a full model of the cable"),
+    # weights: the string's own, and what is not one
     ({"cable.wet_line_density": -0.1}, "cable.wet_line_density", 'or model = "rope"'),
+    ({"payload.wet_weight": 0.0}, "payload.wet_weight", 'the full model, model = "rope"'),
+    ({"payload.wet_weight": -10.0}, "payload.wet_weight", 'the full model, model = "rope"'),
+    ({"cable.line_density": 1.0, "cable.wet_line_density": 0.5}, "cable.line_density", "a full model of the cable"),
+    ({"cable.wet_line_density": 6.0}, "cable.wet_line_density", "at most cable.line_density"),
+    ({"cable.wet_line_density": 40.4}, "cable.wet_line_density", "40.4 N/m of weight are 4.11825 kg/m"),
+    ({"cable.wet_line_density": None}, "cable.wet_line_density", "4.12395 kg/m"),
+    ({"payload.wet_weight": 1e6}, "payload.wet_weight", "water bears weight"),
+    ({"payload.wet_weight": None}, "payload.wet_weight", "load cell"),
+    ({"control.nominal.payload_wet_weight": 1e6}, "control.nominal.payload_wet_weight", "water bears weight"),
+    # coefficients and sizes
+    ({"environment.water": None}, "cable.water", "needs|need the density"),
+    ({"environment.water.density": 0.0}, "environment.water.density", "1025 kg/m3"),
+    ({"cable.water.diameter": 0.6}, "cable.water.diameter", "metres, not millimetres"),
     ({"cable.water.diameter": 40.0}, "cable.water.diameter", "metres, not millimetres"),
+    ({"cable.water.diameter": 0.0}, "cable.water.diameter", "above 0"),
     ({"cable.water.normal_drag": -1.0}, "cable.water.normal_drag", "drag brakes"),
     ({"cable.water.tangential_drag": -0.01}, "cable.water.tangential_drag", "drag brakes"),
+    ({"cable.water.added_mass": -1.0}, "cable.water.added_mass", "water moves along"),
+    ({"cable.water.strumming": -0.5}, "cable.water.strumming", "an amplitude over the diameter"),
+    ({"payload.water.linear_drag": -1.0}, "payload.water.linear_drag", "drag brakes"),
     ({"payload.water.quadratic_drag": -1.0}, "payload.water.quadratic_drag", "drag brakes"),
+    ({"payload.water.vertical_drag": -1.0}, "payload.water.vertical_drag", "drag brakes"),
     ({"payload.water.added_mass": -1.0}, "payload.water.added_mass", "water moves along"),
-    ({"payload.wet_weight": None}, "payload.wet_weight", "load cell"),
-    ({"payload.wet_weight": -10.0}, "payload.wet_weight", "full model"),
-    ({"payload.wet_weight": 1e6}, "payload.wet_weight", "water bears weight"),
+    ({"payload.water.vertical_added_mass": -1.0}, "payload.water.vertical_added_mass", "water moves along"),
+    ({"payload.water.displaced_mass": -1.0}, "payload.water.displaced_mass", "water moves along"),
+    ({"cable.axial_stiffness": 3e5}, "cable.axial_stiffness", "ten times the static tension"),
+    # the current
     ({"environment.water.current.depths": [0.0, 50.0]}, "environment.water.current.depths", "reaches 100 m"),
     ({"environment.water.current.depths": [200.0, 0.0]}, "environment.water.current.depths.2", "increasing"),
     ({"environment.water.current.speeds": [0.5]}, "environment.water.current.speeds", "2 or more"),
     ({"environment.water.current.speeds": [9.0, 0.1]}, "environment.water.current.speeds", "a knot is 0.514"),
+    ({"environment.water.current.upwards": [0.1, 0.1]}, "environment.water.current.upwards", "no such key"),
+    ({**WEAK, "duration": 60.0}, "environment", "a current below 0.658 times this one"),
+    # what moves: tension above 0, S above rho |v|
     ({"environment.vessel_heave": [sine(5.0, 1.0)]}, "environment.vessel_heave", 'model = "rope"'),
     ({"environment.vessel_heave": [{"kind": "step", "value": 1.0, "time": 1.0}]},
      "environment.vessel_heave.1.kind", "acceleration of the sheave"),
     ({"winch": {"law": "speed", "start_length": 100.0, "speed": 3.0}, "duration": 10.0},
      "winch.speed", "less its drag"),
+    (FAST_UP, "winch.speed", "slower than the waves"),
 ]  # fmt: skip
+"""Every row of the string in water and the words that stand in its message, one of those between bars."""
 
 
 @pytest.mark.parametrize(("change", "key", "words"), REFUSED, ids=[f"{k} {i}" for i, (_, k, _) in enumerate(REFUSED)])
@@ -71,7 +95,8 @@ def test_it_is_refused(change: dict[str, Any], key: str, words: str) -> None:
         ({"environment.water.current.speeds_across": [0.1, 0.0]}, "nothing across the plane counts"),
         ({"payload.water.displaced_mass": 2000.0}, "is one of the three a slip"),
         ({"payload.wet_weight": 3500.0}, "if 3500 kg was meant"),
-        ({"environment.water.current.speeds": [1.9, 1.5], "payload.wet_weight": 20000.0}, "a static slope"),
+        ({**WEAK, "duration": 1.0}, "the run is too short for the cable to come to rest there"),
+        ({"cable.axial_stiffness": 3e6}, "the static stretch reaches 1.30%"),
     ],
 )
 def test_it_is_told(change: dict[str, Any], words: str) -> None:

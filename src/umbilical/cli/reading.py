@@ -90,17 +90,21 @@ def _show_run(file: str, as_json: bool) -> None:
 
 def _show_scenario(source: str, as_json: bool) -> None:
     from umbilical.library import admit, load
+    from umbilical.plant.checks.statics import statics
     from umbilical.scenario.inventory import inventory
 
     scenario = load(source)
     notices = [str(notice) for notice in admit(scenario)]
+    found = statics(scenario)
     if as_json:
-        say_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, "notices": notices})
+        known = {"statics": found and found._asdict(), "notices": notices}
+        say_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, **known})
         return
     entries = [
         (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
     ]
     parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, table(entries)]
+    parts += [f"before the first step: {found}"] if found else []
     if scenario.assumed:
         parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
     say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))

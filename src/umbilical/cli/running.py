@@ -46,11 +46,16 @@ def run(
     if out:
         _check_size(chosen, out)
     from umbilical.cli.progress import simulate_visibly
+    from umbilical.plant.checks.statics import statics
 
+    found = statics(chosen)
+    if found and found.slope:
+        tell(f"{chosen.name}: {found}")
     result = simulate_visibly(chosen, own_controller(controller, chosen))
     files = _write(result, out, plot, force)
     if as_json:
-        say_json(result.to_dict() | {"files": files, "controller": controller})
+        known = {"files": files, "controller": controller, "statics": found and found._asdict()}
+        say_json(result.to_dict() | known)
     else:
         say(_report(result, files, scenario, controller))
     return result.status.exit_code

@@ -13,7 +13,7 @@ from umbilical.engine.recording import Log, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
 from umbilical.engine.setup import Setup
 from umbilical.plant.exogenous import STRETCHING
-from umbilical.plant.forces.table import WORKS
+from umbilical.plant.forces.table import IN_WATER, WORKS
 from umbilical.plant.layout import positions
 from umbilical.plant.seaway import may_heave
 from umbilical.run import Run, Status, assemble
@@ -23,6 +23,9 @@ from umbilical.scenario.scenario import Scenario
 GRID_TOOK, UNBALANCED = 0.1, 0.01
 """Shares of ``grid_loss`` and ``energy_balance_residual`` from which on a run tells them: the presets stay below 0.002
 and 1e-4, on four elements below 0.02 and 1e-3; a vessel whose velocity jumps every second has 0.5 and 0.1."""
+
+_SUMMED = sorted(WORKS, key={force.work for force in IN_WATER}.__contains__)
+"""Works in the order they are summed: those of water last, so that where they are zero all sums round as in air."""
 
 
 class Ending(NamedTuple):
@@ -113,7 +116,7 @@ def held_values(logged: Sequence[tuple[int, Mapping[str, float]]], updates: np.n
 def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
     """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
     motion = {name: named[name] for name in ("tip_velocity", "length")}
-    works = np.stack([named[name] for name in WORKS if name in named], axis=1)
+    works = np.stack([named[name] for name in _SUMMED if name in named], axis=1)
     outside = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed", *STRETCHING[:2])}
     if may_heave(scenario.environment):
         named["top_tension"], named["end_tension"] = tension_at_ends(scenario, length=named["length"], **outside)

@@ -34,7 +34,8 @@ class Payload(Record):
     mass: float = quantity("payload_mass", gt=0.0, le=1e9, reason="the ROV resists acceleration with it")
     wet_weight: float | None = quantity(
         "wet_weight", None, gt=0.0, cure="newton, not kg; left out it weighs m g as in air",
-        reason="under a ROV that floats the cable is slack, which is no string: that needs a full model of the cable",
+        reason="under a ROV that floats the cable is slack, which is no string; the full model, model = \"rope\", may "
+        "go slack but starts from a cable that hangs",
     )  # fmt: skip
     damping: float = quantity("payload_damping", ge=0.0, reason="negative damping feeds the ROV", cure="use 0 or more")
     water: BodyInWater | None = None

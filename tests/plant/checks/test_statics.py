@@ -10,7 +10,7 @@ import pytest
 import umbilical
 from umbilical.errors import ScenarioError
 from umbilical.library import admit
-from umbilical.plant.checks.statics import Steady, steady_slope
+from umbilical.plant.checks.statics import Steady, statics, steady_slope
 from umbilical.scenario import Scenario
 
 
@@ -62,20 +62,35 @@ def test_the_plant_comes_to_rest_there(law: str) -> None:
     assert run["sigma"].values[np.argmax(rest)] == pytest.approx(found.sigma, abs=0.05)
 
 
-@pytest.mark.parametrize(("load", "told"), [(1.0, False), (4.0, True)])
-def test_told_above_three_tenths(load: float, told: bool) -> None:
-    scenario = umbilical.load("paper", DEEP | {"environment.cable_load": along(constant(load))})
-    assert any("static slope" in str(notice) for notice in admit(scenario)) is told
-
-
-def test_refused_from_one_on_and_the_fix_holds() -> None:
-    deep = DEEP | {"environment.cable_load": along(constant(46.0))}
+@pytest.mark.parametrize("load", [4.0, 46.0])
+def test_refused_above_three_tenths_and_each_cure_holds(load: float) -> None:
+    deep = DEEP | {"environment.cable_load": along(constant(load))}
     with pytest.raises(ScenarioError, match=r"a static slope") as caught:
         umbilical.load("paper", deep)
     problem = caught.value.problems[0]
-    share = float(problem.cure.split()[2])
-    eased = DEEP | {"environment.cable_load": along(constant(0.99 * share * 46.0))}
-    assert of(umbilical.load("paper", eased)).slope == pytest.approx(0.99, abs=0.01)
+    share = float(problem.cure.partition("loads below ")[2].split()[0])
+    eased = DEEP | {"environment.cable_load": along(constant(0.999 * share * load))}
+    assert of(umbilical.load("paper", eased)).slope == pytest.approx(0.3, abs=0.002)
+    assert umbilical.load("paper", deep | {"model": "rope"}).model == "rope"
+
+
+def test_a_slower_current_is_a_cure() -> None:
+    """Drag is quadratic, so the share of the current is a root."""
+    current = {"depths": [0.0, 1000.0], "speeds": [2.0, 1.0]}
+    preset, key = "work-class-1000m-current", "environment.water.current.speeds"
+    with pytest.raises(ScenarioError, match=r"a static slope") as caught:
+        umbilical.load(preset, {key: current["speeds"]})
+    share = float(caught.value.problems[0].cure.partition("current below ")[2].split()[0])
+    slower = umbilical.load(preset, {key: [0.999 * share * speed for speed in current["speeds"]]})
+    assert of(slower).slope == pytest.approx(0.3, abs=0.002)
+
+
+def test_slope_and_tension_of_the_preset_in_a_current_are_told() -> None:
+    found = statics(umbilical.load("work-class-1000m-current"))
+    assert found is not None
+    assert (found.least, found.largest) == pytest.approx((35e3, 35e3 + 4.124 * 9.81 * 1000.0))
+    assert 0.02 < found.slope < 0.05
+    assert statics(umbilical.load("observation-300m")) is None
 
 
 @pytest.mark.parametrize("lasting", [False, True])

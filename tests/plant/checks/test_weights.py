@@ -17,8 +17,8 @@ HARD = {"law": "cosine", "start_length": 450.0, "amplitude": 40.0, "frequency": 
     ("changes", "key", "words"),
     [
         ({"payload.wet_weight": 5001.0}, "payload.wet_weight", "at most the weight in air, 500 kg * 10 m/s2 = 5000 N"),
-        ({"payload.wet_weight": 0.0}, "payload.wet_weight", "full model of the cable"),
-        ({"payload.wet_weight": -50.0}, "payload.wet_weight", "full model of the cable"),
+        ({"payload.wet_weight": 0.0}, "payload.wet_weight", "the full model"),
+        ({"payload.wet_weight": -50.0}, "payload.wet_weight", "the full model"),
         ({"cable.wet_line_density": 2.1}, "cable.wet_line_density", "2.1 N/m of weight are 0.21 kg/m"),
         ({"cable.wet_line_density": 30.0}, "cable.wet_line_density", "check both densities"),
         ({"control.nominal.payload_wet_weight": 6e3}, "control.nominal.payload_wet_weight", "5000 N"),

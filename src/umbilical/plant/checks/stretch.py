@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.motion import sampled_top
+from umbilical.plant.checks.motion import sampled_top, sampled_winch
 from umbilical.plant.checks.seas import sound
 from umbilical.plant.seaway import heaving, sheave
 from umbilical.plant.stretching import NEAR, Difference, difference
@@ -16,8 +16,8 @@ from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.signals import Table
 from umbilical.scenario.winch import Winch
 
-_WEAK = 10.0
-"""EA over the static tension at the sheave: below it the cable stretches by more than a tenth."""
+_STIFF, _WEAK = 100.0, 10.0
+"""EA over the static tension at the sheave: below the first a stretch of 1 % is told, below the second refused."""
 
 
 def heave_has_its_model(environment: Environment, model: str) -> Iterator[Finding]:
@@ -29,13 +29,31 @@ def heave_has_its_model(environment: Environment, model: str) -> Iterator[Findin
         yield Notice("environment.sea", words)
 
 
+def bears_what_hangs(
+    environment: Environment, cable: Cable, payload: Payload, winch: Winch, duration: float
+) -> Iterator[Finding]:
+    """A string that is said to stretch does so by a little."""
+    given, sampled = cable.axial_stiffness, sampled_winch(winch, duration)
+    if given is None or not sampled:
+        return
+    still, hung = net_gravity(environment.gravity), hanging_of(cable, payload, environment)
+    load = float(largest_tension(sampled[1].length, still, hung).max())
+    if given < _WEAK * load:
+        yield Problem(
+            "cable.axial_stiffness", amount(given, "N"), f"at least {_WEAK * load:.4g} N, ten times the static tension",
+            "the cable would stretch by more than a tenth", "EA in newton: modulus times area",
+        )  # fmt: skip
+    elif given < _STIFF * load:
+        yield Notice("cable.axial_stiffness", f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
+
+
 def heave_of_a_cable_that_stretches(
     environment: Environment, cable: Cable, payload: Payload, winch: Winch, duration: float, model: str
 ) -> Iterator[Finding]:
     """How heave enters the tension is told: with the cable's stretch or without, and how far both are apart."""
     if model == "rope" or not sound(environment) or not heaving(environment):
         return
-    if not (sampled := sampled_top(winch, environment, duration)):
+    if not sampled_top(winch, environment, duration):
         return
     key, given = _key(environment), cable.axial_stiffness
     if given is None:
@@ -45,14 +63,9 @@ def heave_of_a_cable_that_stretches(
             'model = "rope" knows slack, too)',
         )  # fmt: skip
         return
-    still, hung = net_gravity(environment.gravity), hanging_of(cable, payload, environment)
-    load = float(largest_tension(sampled[1].length, still, hung).max())
-    if given < _WEAK * load:
-        yield Problem(
-            "cable.axial_stiffness", amount(given, "N"), f"at least {_WEAK * load:.4g} N, ten times the static tension",
-            "the cable would stretch by more than a tenth", "EA in newton: modulus times area",
-        )  # fmt: skip
-    elif any(isinstance(term, Table) for term in environment.vessel_heave or ()):
+    if any(isinstance(f, Problem) for f in bears_what_hangs(environment, cable, payload, winch, duration)):
+        return
+    if any(isinstance(term, Table) for term in environment.vessel_heave or ()):
         yield Problem(
             "cable.axial_stiffness", amount(given, "N"), "left out where a table heaves",
             "stretch is worked out wave by wave, and a table has none", 'sines or a sea, or model = "rope"',
