@@ -73,7 +73,11 @@ EDITS = {
         "plant/forces/drag.py",
         "slides = (sinks - slip) / length\n    for j",
         "slides = -slip / length\n    for j",
-        ("manufactured solution, at sea, l growing", "manufactured solution, at sea, l shrinking"),
+        (
+            "manufactured solution, at sea, l growing",
+            "manufactured solution, at sea, l shrinking",
+            "string in water, drag in still water",
+        ),
     ),
     "the transport at the ROV": Edit(
         "plant/cable.py",

@@ -117,13 +117,14 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     ),
     "more added mass": (
         another_scenario(broken.more_added_mass),
-        ("string in water, frequencies", "string in water, water that does nothing"),
+        ("string in water, frequencies*", "string in water, water that does nothing"),
     ),
     "less displaced by the ROV": (another_scenario(broken.less_displaced_by_the_rov), ("string in water, moving*",)),
     "drag by the square of the diameter": (
         another_scenario(broken.drag_by_the_square_of_the_diameter),
         ("string in water, diameter*",),
     ),
+    "twice the heave, in water": (another_scenario(broken.twice_the_heave), ("string in water, drag in still*",)),
     "drag linearised once": (broken.drag_linearised_once, ("string in water, shaken in a*",)),
     "twice the drag": (another_scenario(broken.twice_the_drag), ("string in water, shaken*",)),
     "a force nobody ordered, in water": (UNORDERED, ("string in water, mirror*", "string in water, superposition")),

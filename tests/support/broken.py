@@ -280,3 +280,8 @@ def twice_the_drag(scenario: Scenario) -> Mapping[str, Any]:
     cable, payload = scenario.cable.water, scenario.payload.water
     found = {"cable.water.normal_drag": 2.0 * cable.normal_drag} if cable else {}
     return found | ({"payload.water.quadratic_drag": 2.0 * payload.quadratic_drag} if payload else {})
+
+
+def twice_the_heave(scenario: Scenario) -> Mapping[str, Any]:
+    motion = scenario.to_dict()["environment"]["vessel_heave"]
+    return {"environment.vessel_heave": [*motion, *motion]}

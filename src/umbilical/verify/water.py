@@ -144,6 +144,24 @@ def scaled() -> Iterator[Check]:
         yield each_close(f"w1, w2, w3, {name}, rad/s", found, frequencies(wet, 3), 1e-4, "four digits")
 
 
+def slowed() -> Iterator[Check]:
+    """Added mass of the cable against none: sqrt(rho/M) where the body is held, less where it swings along."""
+
+    def frequencies_with(added: float, mass: float) -> np.ndarray:
+        water = {"diameter": DIAMETER, "added_mass": added}
+        body = BODY | {"added_mass": 0.0}
+        found = string(1000.0, payload__mass=mass, payload__water=body, environment__water__current=None,
+                       cable__water=water, grid__elements=32)  # fmt: skip
+        return np.imag(ours.poles(found, 4))
+
+    held, free = (frequencies_with(1.0, mass) / frequencies_with(0.0, mass) for mass in (1e9, MASS))
+    exact = np.full(3, np.sqrt(LINE / (LINE + DISPLACED)))
+    why = "modes 2 to 4, of the cable alone: a body of a million tons hardly moves"
+    yield each_close("frequencies over those without added mass, body held", held[1:], exact, 1e-6, why)
+    known = [0.983, 0.908, 0.901]
+    yield each_close("the same with a body of 9 t, modes 1 to 3", free[:3], known, 5e-4 / 0.9, "three digits are known")
+
+
 CLOSED = "closed form"
 CASES = (
     *(
@@ -159,6 +177,7 @@ CASES = (
     Case("string in water, tension", CLOSED, "axial balance of what hangs and sinks", tensions),
     Case("string in water, statics", "q l/w + (F - q W/w)/w ln(1 + w l/W)", "T y_x = F + q (l - x)", statics),
     Case("string in water, frequencies", BESSEL, CHAIN, scaled),
+    Case("string in water, frequencies by added mass", "sqrt(rho/(rho + rho_a))", "an independent computation", slowed),
     Case("string in water, law without a station", "rest where y_x(l) = 0", CLOSED,
          lambda: station({}, ALONE.offset(), 0.0)),
     Case("string in water, law with a station", "rest at the station", CLOSED,

@@ -7,8 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from umbilical.compile import plain
 from umbilical.plant.equilibrium import equilibrium
+from umbilical.plant.forces import drag
+from umbilical.plant.layout import to_elements, to_nodal
+from umbilical.plant.top import top_at
+from umbilical.relations.water import line_inertia
 from umbilical.run import Run
+from umbilical.scenario.scenario import Scenario
 from umbilical.verify import ours
 from umbilical.verify.cases import Case, Check, history_close, small
 from umbilical.verify.invariance import ROUND_OFF, TWO_RUNS, WHY
@@ -20,6 +26,8 @@ UNIFORM = {"depths": [0.0, 200.0], "speeds": [0.5, 0.5]}
 CARRIED, TURNING = 0.3, 0.5
 """Size, m, and frequency, rad/s, of the frame ``s = a (1 - cos w t)^2``, which sets off gently."""
 BODY_DISPLACED = 5000.0
+SET_OFF = np.pi / 2.0
+"""Phase of a sine that starts at rest."""
 
 
 def moved(**changes: Any) -> Run:
@@ -131,6 +139,40 @@ def out_and_in() -> Iterator[Check]:
     yield history_close("y after 600 s, m", found["displacement"].values[-1], y, 1e-3, why)
 
 
+def drag_in_still_water() -> Iterator[Check]:
+    """Drag across brakes what moves through the water, at every node and sample, however the cable slides along.
+
+    ``f_n (y_t + zeta' y_x) <= 0``: f_n of the kernel at states that its run reached, the velocity through the water
+    from the run's channels. With Dy/Dt, another velocity where a winch runs, the sign does not hold.
+    """
+    run = moved(environment__water__current=None, environment__vessel_motion=[constant(0.2), sine(-0.2, 1.1, SET_OFF)])
+    slope, velocity, t = run["slope"].values, run["velocity"].values, run["time"].values
+    heaves = 0.3 * 0.8 * np.sin(0.8 * t)
+    through = velocity - (run["payout_speed"].values - heaves)[:, None] * slope
+    force = np.array([_drag_across(run.scenario, *sample) for sample in zip(t, slope, velocity, strict=True)])
+    peak = np.abs(force * through).max()
+    why = "round-off"
+    yield small("largest f_n (y_t + zeta' y_x), over its peak", max(np.max(force * through), 0.0) / peak, 1e-12, why)
+    share = float(np.mean(force * velocity > 0.0))
+    why = "the material velocity is not the one through the water: it must be at least 1e-3"
+    yield Check("share of nodes and samples at which f_n Dy/Dt drives", share, 1e-3, 1e-3 / share, 1.0, why)
+
+
+def _drag_across(scenario: Scenario, time: float, slope: np.ndarray, velocity: np.ndarray) -> Any:
+    """f_n of the kernel in still water at y_x and Dy/Dt along the cable, N/m, without its part along; same shape."""
+    inertia, top = (
+        line_inertia(scenario.cable, scenario.payload, scenario.environment),
+        top_at(scenario.winch, time, environment=scenario.environment),
+    )
+    length, sinks = float(top.length), float(top.sink_speed)
+    slip = DISPLACED * sinks / inertia
+    state = np.ascontiguousarray(np.hstack([to_elements(length * slope), to_elements(velocity - slip * slope)]))
+    rate, still = np.zeros_like(state), np.zeros((5, state.shape[1] // 2))
+    across = drag.make(scenario)._replace(tangential=0.0)
+    plain(drag.add)(across, inertia, state, rate, still, length, sinks, slip)
+    return to_nodal(inertia * rate[:, still.shape[1] :])
+
+
 def water_that_does_nothing() -> Iterator[Check]:
     """No drag, no added mass, weights as in air: every number of the run in air, to the last bit."""
     dry = open_loop(
@@ -155,6 +197,7 @@ CASES = (
     Case("string in water, diameter for coefficients", TWO_RUNS, "only C d and C d^2 count", same_product),
     Case("string in water, superposition", "sum of two responses", "linear without drag across", superposed),
     Case("string in water, out and in", "statics", "T y_x = F + integral of f", out_and_in),
+    Case("string in water, drag in still water", "never above 0", "f_n brakes y_t + zeta' y_x", drag_in_still_water),
     Case("string in water, water that does nothing", "a run in air", "(A0) with C_d = C_a = 0 and W = m g",
          water_that_does_nothing),
 )  # fmt: skip
