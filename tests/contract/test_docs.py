@@ -22,9 +22,6 @@ ROOT = Path(__file__).parents[2]
 DOCS = sorted((ROOT / "docs").glob("*.md"))
 SOURCE = ROOT / "src" / "umbilical"
 WRITER = runpy.run_path(str(ROOT / "tools" / "make_docs"))
-RUNNER = runpy.run_path(str(ROOT / "tools" / "pages.py"), run_name="pages")
-COMPLETE = ("tutorial-own-law.md",)
-"""Pages whose commands are run, too, between their Python."""
 
 each_page = pytest.mark.parametrize("page", DOCS, ids=lambda page: page.name)
 
@@ -83,38 +80,6 @@ def test_functions_named_with_their_file_are_in_it(page: Path) -> None:
             f"{name}: {t}" for t in things.split(", ") if not re.search(rf"^(def|class) {t}\b|^{t}\b", text, re.M)
         ]
     assert missing == []
-
-
-@pytest.mark.parametrize("page", [p for p in DOCS if p.name not in COMPLETE], ids=lambda page: page.name)
-def test_python_examples_run(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All examples of a page, one after the other, in an empty folder that holds its TOML examples."""
-    monkeypatch.chdir(tmp_path)
-    for text in blocks(page, "toml"):
-        if name := re.match(r"# (\w+\.toml)", text):
-            (tmp_path / name[1]).write_text(text, encoding="utf-8")
-    names: dict[str, object] = {"__name__": "example"}
-    for text in blocks(page, "python"):
-        exec(compile(text, page.name, "exec"), names)
-
-
-@pytest.mark.parametrize("name", COMPLETE)
-def test_all_blocks_of_a_page_run(name: str, tmp_path: Path) -> None:
-    RUNNER["run_page"](ROOT / "docs" / name, tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("block", "complaint"),
-    [
-        ("```bash\nfalse\n```", "exit code 1"),
-        ("```bash\ntrue # exit code 7\n```", "exit code 0"),
-        ("```bash\necho 1\n```\n```output\n2\n```", "was printed"),
-        ("```python\nassert 1 > 2\n```", "line 1"),
-    ],
-)
-def test_a_block_that_does_something_else_is_noticed(block: str, complaint: str, tmp_path: Path) -> None:
-    (tmp_path / "page.md").write_text(block + "\n", encoding="utf-8")
-    with pytest.raises(Exception, match=complaint):
-        RUNNER["run_page"](tmp_path / "page.md", tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from inspect import getdoc
+from pathlib import Path
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from writing import code, page, table
 
 from umbilical.cli.app import app
 from umbilical.cli.speech import EXIT_CODES
+
+FILES = Path(__file__).with_suffix(".md")
+"""What the examples need that none of them makes."""
 
 
 def command_line() -> str:
@@ -19,6 +23,7 @@ def command_line() -> str:
         "A scenario is the name of a preset, a `.toml` file, or a `.nc` result, whose scenario is taken. Nothing is "
         "overwritten without `--force`; files appear complete or not at all. `--json` prints exactly one object on "
         "stdout; news and errors go to stderr. `--debug` anywhere shows the traceback of an error.",
+        FILES.read_text(encoding="utf-8").strip(),
         *(section(command.callback) for command in app.registered_commands if command.callback),
         "## Exit codes",
         table(("code", "meaning"), ((str(number), text) for number, text in EXIT_CODES.items())),

@@ -40,9 +40,9 @@ def margins(
     \b
     examples
       umbilical margins paper
-      umbilical margins ringdown --set control.law.slope_gain=5
+      umbilical margins ringdown --set control.law.slope_gain=5  # exit code 7
       umbilical margins paper --lengths 100,300,500 --plot margins.png
-      umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400
+      umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400  # exit code 7
       umbilical margins paper --controller my_module:MyLaw
 
     Gain, phase and delay margins are for the loop opened at the thrusters. A controller of your own is linearised

@@ -130,7 +130,7 @@ def compare(
 
     \b
     example
-      umbilical compare none.nc pd.nc paper.nc
+      umbilical compare free.nc my.nc paper.nc
     """
     from umbilical.analysis.comparison import compare as compute
     from umbilical.faces.comparison import document, text

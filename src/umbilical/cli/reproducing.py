@@ -29,7 +29,7 @@ def reproduce(
     \b
     examples
       umbilical reproduce --out paper
-      umbilical reproduce --no-maps --check --json
+      umbilical reproduce --no-maps --check --json --out checked
       umbilical reproduce fig6 kappa --out figures
 
     Each figure is written as .png and .pdf, its data as .nc and .csv. The report, report.html, opens in any browser

@@ -35,7 +35,7 @@ def sweep(
     examples
       umbilical sweep paper-robustness --out robust
       umbilical sweep paper-robustness --set members=100 --jobs 2 --json
-      umbilical sweep my-study.toml --dask tcp://host:8786 --out far
+      umbilical sweep my-study.toml --dask local --out far
       umbilical sweep my-study.toml --dask tcp://host:8786 --out far --resume
 
     Killed at any moment it loses at most the members under way; the same command with --resume completes to the same
