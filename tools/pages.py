@@ -4,7 +4,8 @@
 
 Tests run all pages this way. Of a block's language:
 
-- ``toml``, ``python`` and ``csv`` whose first line is ``# name.ext``: the file of that name (csv: without that line);
+- ``toml``, ``python``, ``csv`` and ``c`` whose first line is ``# name.ext`` (C: ``//``): the file of that
+  name (csv: without that line);
 - ``python`` without a name: executed, all of a page in one namespace;
 - ``bash``: executed; a line may end in ``# exit code N`` where that is what the page is about;
 - ``output``: what the block before it prints. Numbers hold within 2 %, and ``...`` stands for anything;
@@ -32,7 +33,7 @@ from pathlib import Path
 from typing import Any
 
 _BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.DOTALL | re.MULTILINE)
-_NAME = re.compile(r"# ([\w-]+\.(?:toml|py|csv))\n")
+_NAME = re.compile(r"(?:#|//) ([\w-]+\.(?:toml|py|csv|c))\n")
 _CODE = re.compile(r"# exit code (\d+)$")
 _REMARK = re.compile(r"\s+#\s.*$")
 _LOOSE = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE

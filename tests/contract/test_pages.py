@@ -16,7 +16,7 @@ from umbilical.cli.app import app
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNNER = runpy.run_path(str(ROOT / "tools" / "pages.py"), run_name="pages")
-LANGUAGES = {"bash", "python", "toml", "csv", "output", "text"}
+LANGUAGES = {"bash", "python", "toml", "csv", "c", "output", "text"}
 QUICK = ("certificates.md",)
 """Pages of few seconds."""
 

@@ -61,7 +61,7 @@ def examples(
     ] = None,
     force: Force = False,
 ) -> None:
-    """List or copy the example scripts in Python.
+    """List or copy the examples: scripts in Python, and a notebook.
 
     \b
     examples
@@ -71,7 +71,10 @@ def examples(
     from umbilical import files
 
     found = {
-        path.relative_to(folder).as_posix(): path for folder in [_examples()] for path in sorted(folder.rglob("*.py"))
+        path.relative_to(folder).as_posix(): path
+        for folder in [_examples()]
+        for path in sorted(folder.rglob("*"))
+        if path.suffix in (".py", ".ipynb")
     }
     if copy is None:
         say(table([(name, _purpose(path)) for name, path in found.items()]))
@@ -79,7 +82,7 @@ def examples(
     for name, path in found.items():
         files.make_folder((copy / name).parent)
         files.write(copy / name, path.read_bytes(), force=force)
-    say(f"copied: {len(found)} scripts to {copy}\n  next: python {copy / 'first_run.py'}")
+    say(f"copied: {len(found)} files to {copy}\n  next: python {copy / 'first_run.py'}")
 
 
 def _examples() -> Path:
@@ -89,10 +92,14 @@ def _examples() -> Path:
 
 
 def _purpose(path: Path) -> str:
-    """First line of a script's own words."""
+    """First line of an example's own words."""
+    import json
     from ast import get_docstring, parse
 
-    return (get_docstring(parse(path.read_text(encoding="utf-8"))) or "").partition("\n")[0]
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".ipynb":
+        return json.loads(text)["cells"][0]["source"][0].strip("# \n")
+    return (get_docstring(parse(text)) or "").partition("\n")[0]
 
 
 def _text(name: str) -> str:
