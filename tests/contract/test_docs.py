@@ -84,10 +84,13 @@ def test_functions_named_with_their_file_are_in_it(page: Path) -> None:
 
 @pytest.mark.parametrize(
     ("page", "text"),
-    [(page.name, text) for page in DOCS for text in blocks(page, "toml")],
+    [(page.name, text) for page in DOCS for text in blocks(page, "toml") if not re.match(r"# [\w-]+\.toml\n", text)],
 )
 def test_toml_examples_are_scenarios(page: str, text: str, tmp_path: Path) -> None:
-    """An example that does not say what it extends is a piece of one that extends the paper's; some are studies."""
+    """An example that does not say what it extends is a piece of one that extends the paper's; some are studies.
+
+    One with a name is a file of its page, which uses it where test_pages.py runs the page.
+    """
     data = {"extends": "paper", **tomllib.loads(text)}
     if isinstance(data.get("scenario"), str):
         (tmp_path / "study.toml").write_text(text, encoding="utf-8")
