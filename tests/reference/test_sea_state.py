@@ -1,6 +1,8 @@
-"""A sea state on the rope against the frequency domain."""
+"""A sea state on the rope against the frequency domain, and what it takes."""
 
 from __future__ import annotations
+
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -18,3 +20,15 @@ def test_the_rope_in_a_sea_has_the_statistics_of_the_frequency_domain() -> None:
     for name, expected in (("top_tension", exact.top), ("end_tension", exact.end)):
         assert run[name].values[late].std() == pytest.approx(float(expected.rms), rel=0.05), name
     assert run["body_position"].values[late, 2].std() == pytest.approx(float(exact.body.rms), rel=0.05)
+
+
+@pytest.mark.slow
+def test_a_long_sea_state_takes_the_memory_of_its_samples_and_no_more() -> None:
+    peaks = []
+    for duration in (1500.0, 4500.0):
+        scenario = umbilical.load("work-class-3000m", {"duration": duration, "output.interval": duration / 400.0})
+        tracemalloc.start()
+        umbilical.simulate(scenario)
+        peaks.append(tracemalloc.get_traced_memory()[1])
+        tracemalloc.stop()
+    assert peaks[1] < 1.2 * peaks[0]
