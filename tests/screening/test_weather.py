@@ -94,6 +94,78 @@ def test_spectra_of_wavespectra(tmp_path: Path) -> None:
         read_seas(tmp_path / "broken.nc")
 
 
+def three_days() -> Any:
+    """Directional spectra of one site every three hours: Hs of 1 to 2 m, Tp 10 s."""
+    xarray = pytest.importorskip("xarray")
+    construct = pytest.importorskip("wavespectra.construct.frequency")
+    directions = np.arange(0.0, 360.0, 30.0)
+    spread = xarray.DataArray(np.cos(np.radians(directions - 210.0)).clip(0.0) ** 2, {"dir": directions}, ["dir"])
+    rows = [
+        construct.jonswap(freq=np.linspace(0.04, 0.5, 47), fp=0.1, hs=height, gamma=3.3) * spread / spread.sum() / 30.0
+        for height in HEIGHTS
+    ]
+    time = np.datetime64("2026-01-01", "ns") + np.arange(HEIGHTS.size) * np.timedelta64(3, "h")
+    found = xarray.concat(rows, "time").assign_coords(time=time).expand_dims(site=[0])
+    found = found.transpose("time", "site", "freq", "dir").rename("efth").to_dataset()
+    return found.assign(lon=("site", [4.0]), lat=("site", [60.0]))
+
+
+HEIGHTS = np.linspace(1.0, 2.0, 24)
+
+
+def as_ndbc_text(spectra: Any, path: Path) -> None:
+    one = spectra["efth"].isel(site=0).sum("dir") * 30.0
+    head = "#YY  MM DD hh mm " + " ".join(f"{frequency:7.4f}" for frequency in one.freq.values)
+    stamps = [str(t)[:16].replace("-", " ").replace("T", " ").replace(":", " ") for t in one.time.values]
+    rows = [f"{t} " + " ".join(f"{value:8.4f}" for value in row) for t, row in zip(stamps, one.values, strict=True)]
+    path.write_text("\n".join([head, *rows]) + "\n")
+
+
+def as_ndbc_netcdf(spectra: Any, path: Path) -> None:
+    one = (spectra["efth"].isel(site=0, drop=True).sum("dir") * 30.0).rename("spectral_wave_density")
+    one = one.expand_dims(latitude=[60.0], longitude=[4.0]).transpose("time", "freq", "latitude", "longitude")
+    one.rename(freq="frequency").to_dataset().to_netcdf(path, engine="scipy")
+
+
+def as_swan_netcdf(spectra: Any, path: Path) -> None:
+    density = spectra["efth"].rename("density").rename(site="points", freq="frequency", dir="direction")
+    density = (density * 180.0 / np.pi).assign_coords(direction=np.radians(density["direction"]))
+    density.to_dataset().to_netcdf(path, engine="h5netcdf")
+
+
+WRITERS: dict[str, Any] = {
+    "wavespectra.nc": lambda spectra, path: spectra.spec.to_netcdf(path),
+    "classic.nc": lambda spectra, path: spectra.to_netcdf(path, engine="scipy"),
+    "ww3.nc": lambda spectra, path: spectra.spec.to_ww3(path),
+    "swan.spec": lambda spectra, path: spectra.spec.to_swan(path),
+    "octopus.oct": lambda spectra, path: spectra.spec.to_octopus(str(path)),
+    "spectra.json": lambda spectra, path: spectra.spec.to_json(path),
+    "44025.txt": as_ndbc_text, "ndbc.nc": as_ndbc_netcdf, "swan.nc": as_swan_netcdf,
+}  # fmt: skip
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[] if name[-3:] != ".nc" else [pytest.mark.slow]) for name in WRITERS]
+)
+def test_spectra_of_buoys_and_models(name: str, tmp_path: Path) -> None:
+    WRITERS[name](three_days(), tmp_path / name)
+    found = read_seas(tmp_path / name)
+    assert found.height == pytest.approx(HEIGHTS, rel=0.01)
+    assert found.period == pytest.approx(np.full(HEIGHTS.size, 10.0), rel=0.02)
+    assert found.time == pytest.approx(3.0 * 3600.0 * np.arange(HEIGHTS.size))
+
+
+def test_spectra_of_two_sites_say_which_can_be_read(tmp_path: Path) -> None:
+    both = three_days().isel(site=[0, 0])
+    both.to_netcdf(tmp_path / "two.nc", engine="scipy")
+    with pytest.raises(FileError, match="site 2"):
+        read_seas(tmp_path / "two.nc")
+    (tmp_path / "cut.json").write_text('{"coords": ')
+    with pytest.raises(FileError, match="cannot read it as json"):
+        read_seas(tmp_path / "cut.json")
+
+
 def test_the_command_says_and_draws_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     rows = "".join(f"{3 * k};{1 + (k % 9) / 3:.2f};{7 + k % 5}\n".replace(".", ",") for k in range(60))
     (tmp_path / "place.csv").write_text(f"time [h];Hs [m];Tp [s]\n{rows}")

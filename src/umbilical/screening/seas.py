@@ -10,7 +10,8 @@ import numpy as np
 from umbilical import files
 from umbilical.columns import Wanted, lists_of, read_columns
 from umbilical.columns.reading import Columns
-from umbilical.errors import FileError, MissingPartnerError, Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError
+from umbilical.screening.spectra import read_spectra
 from umbilical.sea.spectrum import period_ratio
 
 _HEIGHTS = ("hs", "hm0", "swh", "vhm0", "significant height", "significant wave height")
@@ -43,8 +44,8 @@ def read_seas(path: str | Path, peakedness: float = 3.3) -> Seas:
     """Read a scatter table (a column of counts or shares) or a hindcast (a column of times).
 
     Args:
-        path: CSV or NetCDF with the columns Hs and one of Tp, Tz, T1 under usual names; or NetCDF of wave spectra
-            (``efth``), which needs wavespectra.
+        path: CSV or NetCDF with the columns Hs and one of Tp, Tz, T1 under usual names; or wave spectra of one site, as
+            :func:`umbilical.screening.spectra.read_spectra` has them, which needs wavespectra.
         peakedness: gamma, which turns Tz or T1 into Tp.
 
     Raises:
@@ -54,8 +55,9 @@ def read_seas(path: str | Path, peakedness: float = 3.3) -> Seas:
     """
     origin = Path(path)
     content = files.read(origin)
-    if content[:4] == b"\x89HDF" and (found := _of_spectra(content, origin)) is not None:
-        return _checked(*found, key=str(path), start=True)
+    if (spectra := read_spectra(content, origin)) is not None:
+        height, period, time = spectra
+        return _checked(height, period, None, time, key=str(path))
     columns = read_columns(origin, content)
     lists, kind, problems = _lists(columns, str(path))
     if problems:
@@ -87,8 +89,7 @@ def _lists(columns: Columns, key: str) -> tuple[dict[str, np.ndarray], Any, list
 
 
 def _checked(
-    height: np.ndarray, period: np.ndarray, weight: np.ndarray | None, time: np.ndarray | None, *, key: str,
-    start: bool = False,
+    height: np.ndarray, period: np.ndarray, weight: np.ndarray | None, time: np.ndarray | None, *, key: str
 ) -> Seas:  # fmt: skip
     """Seas that can be: heights and periods of seas, weights of 0 or more, times that increase."""
     problems = []
@@ -113,28 +114,3 @@ def _checked(
         shares / shares.sum(),
         None if time is None else time - time[0],
     )
-
-
-def _of_spectra(content: bytes, origin: Path) -> tuple[np.ndarray, np.ndarray, None, np.ndarray] | None:
-    """Hs, Tp and times of spectra; None where the file holds none."""
-    import io
-
-    import xarray
-
-    try:
-        with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf") as data:
-            if "efth" not in data:
-                return None
-            spectra = data["efth"].load()
-    except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
-        raise FileError(f"{origin}: the file is damaged or no NetCDF ({type(error).__name__})") from error
-    try:
-        import wavespectra  # noqa: F401 (it gives arrays the attribute spec)
-    except ImportError as error:
-        raise MissingPartnerError("wave spectra need wavespectra: pip install 'umbilical[seas]'") from error
-    one = spectra.squeeze()
-    if set(one.dims) - {"time", "freq", "dir"} or "time" not in one.dims:
-        raise FileError(f"{origin}: spectra over {', '.join(map(str, one.dims))}; one site over time is read")
-    known: Any = one.spec
-    seconds = (one["time"].values - one["time"].values[0]) / np.timedelta64(1, "s")
-    return known.hs().values.astype(float), known.tp().values.astype(float), None, seconds.astype(float)
