@@ -26,16 +26,16 @@ from numba.core import types
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, DefaultPassBuilder
 from numba.core.compiler_machinery import FunctionPass, register_pass
-from numba.core.imputils import lower_constant
-from numba.core.typed_passes import NopythonTypeInference
-from numba.extending import models, register_jitable, register_model
+from numba.core.typed_passes import NativeLowering, NopythonTypeInference
+from numba.extending import register_jitable
 
 from umbilical.kernel_cache import folder_for, is_whole, seal
+from umbilical.lowering import LowerDirectly, shared_scopes
 
 config: Any = numba_config  # its settings are made at run time, unknown to type checkers
 
 _FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
-_BESIDES = ("compile.py", "frames.py")
+_BESIDES = ("compile.py", "frames.py", "lowering.py")
 """Files outside these floors that the compiled code depends on."""
 _PACKAGE = Path(__file__).parent
 
@@ -59,13 +59,13 @@ def cache_folder() -> Path:
     return folder_for(_fingerprint())
 
 
-def is_warm(loop: str = "run_steps") -> bool:
-    """Whether a loop has been compiled before and will load from disk: ``run_held`` is that of an episode."""
-    return any(is_whole(path) for path in cache_folder().rglob(f"*{loop}*.nbc"))
+def is_warm(loop: str = "run_dry_steps") -> bool:
+    """Whether a loop has been compiled before and will load from disk; ``engine/setup.py`` knows which runs what."""
+    return any(is_whole(path) for path in cache_folder().rglob(f"*.{loop}-*.nbc"))
 
 
 @cache
-def announce(loop: str = "run_steps") -> None:
+def announce(loop: str = "run_dry_steps") -> None:
     """Say once, before a kernel of a loop is first called, that kernels are about to be compiled.
 
     The message is a warning of the logger ``umbilical``, which Python writes to stderr;
@@ -92,8 +92,8 @@ def expected_time() -> float:
 
 
 _SHORT_PIECE = 60_000
-_KERNELS_TO_SHORT_PIECE = 1700.0
-"""Processor time of the one over that of the other; 1670 and 1980 were measured, on a busy machine."""
+_KERNELS_TO_SHORT_PIECE = 1000.0
+"""Processor time of the one over that of the other; 960 to 1030 were measured, half as much again in water."""
 
 
 class _Whole(JITCodeLibrary):
@@ -150,6 +150,7 @@ class _Compiler(CompilerBase):
     def define_pipelines(self) -> list[Any]:
         passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
         passes.add_pass_after(_ChooseLibrary, NopythonTypeInference)
+        passes.passes = [(LowerDirectly if p is NativeLowering else p, what) for p, what in passes.passes]
         passes.finalize()
         self.state.metadata["library"] = self.library
         return [passes]
@@ -158,7 +159,8 @@ class _Compiler(CompilerBase):
         enabled = gc.isenabled()
         gc.disable()
         try:
-            return super().compile_extra(func)
+            with shared_scopes():
+                return super().compile_extra(func)
         finally:
             if enabled:
                 gc.enable()
@@ -184,24 +186,12 @@ class _ChooseLibrary(FunctionPass):
         return False
 
 
-class _KernelType(types.Dispatcher):
-    """A kernel as those that call it see it: by name; numba's own type also carries an address, which no file keeps."""
-
-
-register_model(_KernelType)(models.OpaqueModel)
-
-
-@lower_constant(_KernelType)
-def _no_address(context: Any, builder: Any, kind: Any, kernel: Any) -> Any:
-    return context.get_dummy_value()
-
-
 class Kernel:
     """A kernel that others take in; called from Python it is compiled once more, as a function of its own."""
 
-    def __init__(self, function: Callable[..., Any]) -> None:
+    def __init__(self, function: Callable[..., Any], taken_in: bool) -> None:
         update_wrapper(self, function)
-        self.py_func = function
+        self.py_func, self._taken_in = function, taken_in
 
     # Made when first asked for: a process that finds its loop on disk needs none of them.
     @cached_property
@@ -210,11 +200,11 @@ class Kernel:
 
     @cached_property
     def _part(self) -> Any:
-        return _compiled(self.py_func, "parts", _PartCompiler, forceinline=True, no_cpython_wrapper=True)
+        return _compiled(self.py_func, "parts", _PartCompiler, forceinline=self._taken_in, no_cpython_wrapper=True)
 
     @cached_property
-    def _numba_type_(self) -> _KernelType:
-        return _KernelType(self._part)  # which does not keep it
+    def _numba_type_(self) -> types.Dispatcher:
+        return types.Dispatcher(self._part)  # which does not keep it
 
     def __call__(self, *arguments: Any) -> Any:
         return self._entry(*arguments)
@@ -240,7 +230,12 @@ def kernel(function: Callable[..., Any]) -> Any:
     of raising inside a loop. Without numba's reference counting (three times the cost of the arithmetic), so
     a kernel that allocates does not compile.
     """
-    return function if config.DISABLE_JIT else Kernel(function)
+    return function if config.DISABLE_JIT else Kernel(function, taken_in=True)
+
+
+def rare_kernel(function: Callable[..., Any]) -> Any:
+    """A kernel that stays one function in each that calls it, for what they do rarely and at several places."""
+    return function if config.DISABLE_JIT else Kernel(function, taken_in=False)
 
 
 def glue(function: Callable[..., Any]) -> Any:
@@ -262,5 +257,5 @@ def plain(kernel: Any) -> Callable[..., Any]:
 
 
 def entry_kernel(function: Callable[..., Any]) -> Any:
-    """A kernel that stays a function of its own: what Python calls, and what kernels call rarely."""
+    """A kernel that Python calls."""
     return _compiled(function, "", _Compiler)

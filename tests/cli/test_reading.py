@@ -163,6 +163,7 @@ def test_warm_up_compiles_every_loop(umbilical):
     done = umbilical("warm-up")
     assert done.code == 0
     assert [line.split(":")[0] for line in done.out.splitlines()[:-1]] == list(PARTS)
+    assert is_warm("run_dry_steps")
     assert is_warm("run_steps")
     assert is_warm("run_held")
     assert is_warm("find_rates")

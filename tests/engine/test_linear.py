@@ -14,7 +14,7 @@ from umbilical.engine.loop import World, advance_period
 from umbilical.engine.schedule import stretch
 from umbilical.engine.sensing import read_truth
 from umbilical.engine.setup import set_up
-from umbilical.engine.stepping import enter_step
+from umbilical.engine.stepping import DRY, enter_step
 from umbilical.frames import numbers
 from umbilical.plant.cable import PRESENT
 from umbilical.plant.exogenous import Outside, Steps
@@ -35,7 +35,7 @@ def test_its_powers_are_a_run() -> None:
     enter_step(setup.world.plant, setup.world.state, inputs, 0)
     states = [state_of(setup.world)]
     for k in range(50):
-        advance_period(setup.world, inputs, k, k + 1)
+        advance_period(setup.world, inputs, k, k + 1, DRY)
         states.append(state_of(setup.world))
     augmented = np.concatenate([states[3], linear.a @ states[2], linear.a @ states[1]])
     for k in range(4, 51):

@@ -10,7 +10,7 @@ import pytest
 from tests.support.scenarios import run, small
 from umbilical import Command, Measurement, Scenario
 from umbilical.control.cascade import Cascade
-from umbilical.engine.loop import run_steps
+from umbilical.engine.loop import run_dry_steps
 
 INSIDE = {
     "boundary_error", "tip_velocity_estimate", "tip_slope_rate_estimate", "disturbance_estimate", "kappa", "demand",
@@ -69,17 +69,17 @@ def test_python_loop_is_the_compiled_loop(preset: str, changes: dict[str, Any]) 
     assert np.abs(compiled["tip_displacement"].values).max() > 0.0
 
 
-@pytest.mark.skipif(not hasattr(run_steps, "signatures"), reason="nothing is compiled")
+@pytest.mark.skipif(not hasattr(run_dry_steps, "signatures"), reason="nothing is compiled")
 def test_numbers_of_motors_and_of_loads_compile_nothing() -> None:
     """Lengths of arrays only: the loop that is compiled for two motors and no load runs them all."""
     run(small("paper"))
-    before = set(run_steps.signatures)
+    before = set(run_dry_steps.signatures)
     load = {"profile": {"shape": "sine"}, "signal": [{"kind": "constant", "value": 0.1}]}
     changes = ONE_MOTOR, THREE_MOTORS, ADAPTIVE | THREE_MOTORS, {"environment.cable_load": [load]}, NOISY
     for change in changes:
         run(small("paper").replace(change))
     run(small("crosscheck-pd"))
-    assert set(run_steps.signatures) == before
+    assert set(run_dry_steps.signatures) == before
 
 
 class OuterOnly:

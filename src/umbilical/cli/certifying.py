@@ -51,7 +51,7 @@ def _certify(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies import audit as audits
 
-    announce_compilation()
+    announce_compilation(scenario)
     with bar("simulating the ideal and the real loop") as advance:
         checked = audits.audit(scenario, progress=advance)
     return checked.certificate, checked

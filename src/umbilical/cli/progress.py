@@ -86,17 +86,17 @@ class _Bar:
         self._progress.stop()
 
 
-def announce_compilation() -> None:
-    """Say so if the kernels are about to be compiled."""
+def announce_compilation(scenario: Scenario | None = None) -> None:
+    """Say so if the kernels, of a scenario's run, are about to be compiled."""
     from umbilical.compile import announce
+    from umbilical.engine.setup import loop_of
 
-    announce()
+    announce(*[loop_of(scenario)] if scenario else [])
 
 
 def simulate_visibly(scenario: Scenario, controller: Controller | None = None) -> Run:
     """Simulate with news on stderr."""
     from umbilical.engine.simulate import simulate
 
-    announce_compilation()
     with bar(f"simulating {scenario.duration:g} s") as advance:
         return simulate(scenario, controller, progress=advance)

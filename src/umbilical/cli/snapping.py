@@ -37,7 +37,7 @@ def snap(
     from umbilical.studies.snap import snap as study
 
     loaded = load_changed(scenario, changes or [])
-    announce_compilation()
+    announce_compilation(loaded)
     with bar("seeds of the sea") as advance:
         found = study(loaded, seeds, workers=workers, progress=advance)
     return conclude(

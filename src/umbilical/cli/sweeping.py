@@ -52,7 +52,7 @@ def sweep(
     refuse_code_of_results(study, chosen)
     folder = out or Path(chosen.name)
     engine = _engine(chosen, jobs, processes, dask)
-    announce_compilation()
+    announce_compilation(chosen.scenario)
     try:
         with bar(f"running {chosen.name}") as advance:
             found = run(

@@ -102,8 +102,8 @@ class Model(Protocol):
 class StringModel:
     """The string of the paper, in one plane."""
 
-    def __init__(self, scenario: Scenario, *, stored: bool = True, kernel: str = "run_steps") -> None:
-        self._scenario, self._setup = scenario, set_up(scenario, stored=stored, kernel=kernel)
+    def __init__(self, scenario: Scenario, *, stored: bool = True, held: bool = False) -> None:
+        self._scenario, self._setup = scenario, set_up(scenario, stored=stored, held=held)
         self._outside, self._held = Outside(scenario), cascade.with_known_factors(self._setup.settings)
         self.clock, self.every = self._setup.clock, self._setup.record.every
         self.state = self._setup.world.state
@@ -118,7 +118,8 @@ class StringModel:
 
     def run(self, inputs: Any, first: np.ndarray, noise: Any, begin: int) -> int:
         s = self._setup
-        return loop.run_steps(s.world, s.settings, s.memory, s.record, inputs, first, noise, begin)
+        run = loop.run_steps if s.world.plant.forces.wet else loop.run_dry_steps
+        return run(s.world, s.settings, s.memory, s.record, inputs, first, noise, begin)
 
     def observe(self, inputs: Any, first: np.ndarray, noise: Any, j: int) -> None:
         loop.observe(self._setup.world, inputs, first, noise, j)
@@ -191,4 +192,4 @@ def make_model(scenario: Scenario, *, stored: bool = True, held: bool = False) -
         from umbilical.engine.rope.model import RopeModel
 
         return RopeModel(scenario, stored=stored)
-    return StringModel(scenario, stored=stored, kernel="run_held" if held else "run_steps")
+    return StringModel(scenario, stored=stored, held=held)

@@ -16,6 +16,7 @@ from umbilical.plant import faults
 from umbilical.plant.checks.sizes import check_memory
 from umbilical.plant.checks.steps import chosen_step
 from umbilical.plant.exogenous import published_jumps
+from umbilical.plant.forces.table import is_wet
 from umbilical.relations.instants import count_up
 from umbilical.scenario.scenario import Scenario
 
@@ -31,18 +32,25 @@ class Setup(NamedTuple):
     memory: cascade.CascadeState
 
 
-def set_up(scenario: Scenario, *, stored: bool = True, kernel: str = "run_steps") -> Setup:
+def loop_of(scenario: Scenario, *, held: bool = False) -> str:
+    """Name of the compiled loop that runs a scenario; ``held``: under commands from outside."""
+    if scenario.model == "rope":
+        return "run_rope_steps"
+    return "run_held" if held else "run_steps" if is_wet(scenario.environment) else "run_dry_steps"
+
+
+def set_up(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Setup:
     """The plant at rest with its sensors, record and controller, before the first step.
 
     With ``stored`` false the record holds the first and the last sample only, and no power is booked.
-    ``kernel`` is the loop that will run, should it have to be compiled.
+    ``held``: commands will come from outside.
 
     Raises:
         ScenarioError: the samples would not fit into this machine's memory.
     """
     if stored:
         check_memory(scenario)
-    announce(kernel)
+    announce(loop_of(scenario, held=held))
     jumps = published_jumps(scenario)
     clock = make_clock(scenario.duration, scenario.control.period, chosen_step(scenario), jumps)
     motors = len(scenario.motors)

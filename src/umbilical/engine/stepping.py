@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import entry_kernel, glue, plain
+from umbilical.compile import entry_kernel, glue, plain, rare_kernel
 from umbilical.control.contract import MotorDecision
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import (
@@ -44,6 +44,9 @@ from umbilical.plant.multistep import EXPLICIT, IMPLICIT, KNOWN
 from umbilical.plant.top import vessel_at
 from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.scenario import Scenario
+
+DRY, WET = False, True
+"""Constants of the kernels: what only water does, or a sheave that heaves, is not compiled into a dry loop."""
 
 
 class Push(Frame):
@@ -142,32 +145,45 @@ def make_plant_state(scenario: Scenario) -> PlantState:
     return state
 
 
-@entry_kernel
+@rare_kernel
 def enter_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
     """The outside world just after the start of step i, where something jumped: rates before it no longer count.
 
     Where nothing jumped, all is as the last step left it, and this is not called.
     """
+    enter(plant, state, inputs, i, WET)
+
+
+@rare_kernel
+def enter_dry_step(plant: Plant, state: PlantState, inputs: Inputs, i: int) -> None:
+    """The same without water."""
+    enter(plant, state, inputs, i, DRY)
+
+
+@glue
+def enter(plant: Plant, state: PlantState, inputs: Inputs, i: int, wet: bool) -> None:
+    """The body of :func:`enter_step`."""
     now = state.now[0]
     before, vessel = now.outside.net_gravity, now.outside.vessel_displacement
-    take_inputs(plant, state, inputs, i, START)
+    take_inputs(plant, state, inputs, i, START, wet)
     now.outside.vessel_displacement = vessel  # the vessel is where the last step left it
     book_tension_jump(plant, state, before)
     now.known_rates = 0
     if not plant.ideal:
         now.thrust = thrust(plant.motors, state.motors)
-    derive(plant, state, 0.0)
+    derive(plant, state, 0.0, wet)
 
 
 @glue
-def take_inputs(plant: Plant, state: PlantState, inputs: Inputs, i: int, column: int) -> None:
+def take_inputs(plant: Plant, state: PlantState, inputs: Inputs, i: int, column: int, wet: bool) -> None:
     """The outside world at start or end of step i."""
     state.now[0].outside = inputs.world[i, column]
     for k in range(state.loads.size):
         state.loads[k] = inputs.loads[i, k, column]
     for k in range(state.motors.size):
         state.motors[k].outside = inputs.motors[i, k, column]
-    flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside, inputs.orbits)
+    if wet:
+        flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside, inputs.orbits)
 
 
 @glue
@@ -181,7 +197,7 @@ def book_tension_jump(plant: Plant, state: PlantState, before: float) -> None:
 
 
 @glue
-def derive(plant: Plant, state: PlantState, half: float) -> None:
+def derive(plant: Plant, state: PlantState, half: float, wet: bool) -> None:
     """What follows from the present state: displacement, slopes at both ends, powers, and their works.
 
     ``half`` is half of the step that ends here; 0 after a jump.
@@ -192,11 +208,11 @@ def derive(plant: Plant, state: PlantState, half: float) -> None:
     add_up_displacement(x, state.starts, outside.vessel_displacement)
     ends.tip_displacement = state.starts[state.starts.size - 1]
     look_at_ends(cable, x, ends, moment)
-    book_at_ends(plant.forces, cable, ends, now.works, half, moment, outside, state.water)
+    book_at_ends(plant.forces, cable, ends, now.works, half, moment, outside, state.water, wet)
     if plant.booked:
         last, loads, water = now.last_relative_jerk, state.loads, state.water
         book_along(
-            plant.forces, cable, x, state.power, state.work, half, moment, outside, last, loads, water
+            plant.forces, cable, x, state.power, state.work, half, moment, outside, last, loads, water, wet
         )  # fmt: skip
     now.last_relative_jerk = outside.relative_jerk
 
@@ -210,15 +226,15 @@ def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, deci
 
 
 @glue
-def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
+def march_cable(plant: Plant, state: PlantState, newest: int, wet: bool) -> None:
     """Cable and ROV by the weights of the newest rate, which is evaluated here, and the two before it."""
     cable, blocks, now = plant.cable, state.blocks, state.now[0]
     outside, ends, w = now.outside, now.ends, now.rate_weights
     moment, rate = at_moment(cable, outside), blocks[RATES + newest]
     evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, moment)
-    along_cable(plant.forces, cable, blocks[PRESENT], rate, state.loads, state.water, moment, outside)
+    along_cable(plant.forces, cable, blocks[PRESENT], rate, state.loads, state.water, moment, outside, wet)
     pull = tension_at(0.0, moment.net, moment.hung) * ends.tip_slope
-    ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water) - pull) / cable.payload_inertia
+    ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water, wet) - pull) / cable.payload_inertia
     old, older = (newest + 2) % 3, (newest + 1) % 3
     loss = moment.speed / moment.length + plant.forces.cable_decay
     march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)
@@ -228,26 +244,15 @@ def march_cable(plant: Plant, state: PlantState, newest: int) -> None:
 @entry_kernel
 def find_rates(plant: Plant, state: PlantState) -> None:
     """Rates at the present state into the first of their places; the state stays as it is."""
-    derive(plant, state, 0.0)
+    derive(plant, state, 0.0, WET)
     weigh_rates(state.now[0], 0.0, 0.0, 0.0)
-    march_cable(plant, state, 0)
+    march_cable(plant, state, 0, WET)
 
 
 @glue
 def weigh_rates(now: Instant, newest: float, old: float, older: float) -> None:
     """Set the weights of the rates in the step that comes."""
     now.rate_weights[0], now.rate_weights[1], now.rate_weights[2] = newest, old, older
-
-
-@glue
-def advance_cable(plant: Plant, state: PlantState, dt: float) -> None:
-    """From the rates of the present and two past instants to the end of the step, without the forces on the ROV."""
-    now = state.now[0]
-    w = plant.explicit[now.known_rates]
-    weigh_rates(now, dt * w[0], dt * w[1], dt * w[2])
-    march_cable(plant, state, (now.newest_rate + 1) % 3)
-    if plant.booked:
-        add_power(state.work.grid, state.power.grid, dt)
 
 
 @glue
@@ -267,34 +272,44 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
 
 
 @glue
-def correct_first_step(plant: Plant, state: PlantState, dt: float) -> None:
-    """After a jump there is no past: the mean of the rates at both ends (Heun, order 2) replaces the first."""
-    now, x = state.now[0], state.blocks[PRESENT]
-    look_at_ends(plant.cable, x, now.ends, at_moment(plant.cable, now.outside))
-    weigh_rates(now, 0.5 * dt, -0.5 * dt, 0.0)
-    march_cable(plant, state, (now.newest_rate + 2) % 3)
+def arrive(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision, wet: bool) -> None:
+    """The outside world at the end of step i, the motors' way there, and what all that pushes the ROV with."""
+    dt, now = inputs.dt[i], state.now[0]
+    take_inputs(plant, state, inputs, i, END, wet)
+    if not plant.ideal:
+        advance_motors(plant, state, inputs, i, decision)
+        now.thrust = thrust(plant.motors, state.motors)
+    push_payload(plant, now, dt)
 
 
 @glue
-def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision) -> None:
-    """Step i, from :func:`enter_step` on: the multistep method for cable and ROV, Runge-Kutta for the motors."""
+def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision, wet: bool) -> None:
+    """Step i, from :func:`enter_step` on: the multistep method for cable and ROV, Runge-Kutta for the motors.
+
+    The rates of the present and two past instants lead to the end of the step. After a jump there is no past: then the
+    mean of the rates at both ends (Heun, order 2) replaces the first, by a second turn of the same loop, because a
+    second copy of it would have to be compiled.
+    """
     dt, now = inputs.dt[i], state.now[0]
     if abs(dt - now.last_step) > 1e-9 * dt:  # the weights are those of equal steps
         now.known_rates = 0
         now.last_step = dt
     before = now.ends.tip_displacement
     now.start.thrust, now.start.payload_force = now.thrust, now.outside.payload_force
-    advance_cable(plant, state, dt)
-    take_inputs(plant, state, inputs, i, END)
-    if not plant.ideal:
-        advance_motors(plant, state, inputs, i, decision)
-        now.thrust = thrust(plant.motors, state.motors)
-    push_payload(plant, now, dt)
-    if now.known_rates == 0:
-        correct_first_step(plant, state, dt)
+    w = plant.explicit[now.known_rates]
+    weigh_rates(now, dt * w[0], dt * w[1], dt * w[2])
+    for turn in range(2 if now.known_rates == 0 else 1):
+        march_cable(plant, state, (now.newest_rate + 1 + turn) % 3, wet)
+        if turn == 0:
+            if plant.booked:
+                add_power(state.work.grid, state.power.grid, dt)
+            arrive(plant, state, inputs, i, decision, wet)
+            if now.known_rates == 0:
+                look_at_ends(plant.cable, state.blocks[PRESENT], now.ends, at_moment(plant.cable, now.outside))
+                weigh_rates(now, 0.5 * dt, -0.5 * dt, 0.0)
     now.newest_rate = (now.newest_rate + 1) % 3
     now.known_rates = min(now.known_rates + 1, KNOWN)
-    derive(plant, state, 0.5 * dt)
+    derive(plant, state, 0.5 * dt, wet)
     moved = now.ends.tip_displacement - before
     now.works.work_thrust += now.average.thrust * moved
     now.works.work_payload_force += now.average.payload_force * moved

@@ -8,7 +8,7 @@ from umbilical.engine.linear import linearise_plant
 from umbilical.engine.simulate import simulate
 from umbilical.library import load
 
-PARTS = ("the built-in controller", "controllers in Python", "linearised models")
+PARTS = ("the built-in controller", "the same in water", "controllers in Python", "linearised models")
 
 
 def warm_up(part: str) -> None:
@@ -21,6 +21,8 @@ def warm_up(part: str) -> None:
         case 0:
             simulate(scenario)
         case 1:
+            simulate(load("work-class-1000m-current", {"duration": 0.1}))
+        case 2:
             episode = Episode(scenario, 0.05)
             episode.step(Command(thrust=0.0))
         case _:

@@ -32,6 +32,7 @@ from umbilical.engine.rope.world import RopeNow, RopePlant, RopePlantState, Rope
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Stretch, make_clock
 from umbilical.engine.sensing import Dice, Sensors, make_sensor_state, make_sensors
+from umbilical.engine.setup import loop_of
 from umbilical.frames import numbers
 from umbilical.plant import faults
 from umbilical.plant.exogenous import published_jumps
@@ -54,7 +55,7 @@ class RopeModel:
     """The rope, in space."""
 
     def __init__(self, scenario: Scenario, *, stored: bool = True) -> None:
-        announce("run_rope_steps")
+        announce(loop_of(scenario))
         self._scenario, self._stored = scenario, stored
         self._rope, self._water = rope_of(scenario), still_water(scenario)
         step = min(scenario.grid.step, rope_step(scenario))

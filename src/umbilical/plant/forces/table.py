@@ -144,6 +144,11 @@ class AlongWorks(Frame):
     work_grid = real()
 
 
+def is_wet(environment: Environment) -> bool:
+    """Whether there is water, or the sheave heaves: what the kernels' constant ``wet`` leaves out otherwise."""
+    return environment.water is not None or bool(heaving(environment))
+
+
 def make_forces(scenario: Scenario) -> Forces:
     """Constants of a scenario's forces."""
     return Forces(
@@ -151,7 +156,7 @@ def make_forces(scenario: Scenario) -> Forces:
         cable_damping.rate(scenario),
         scenario.payload.damping,
         np.ascontiguousarray(to_elements(profiles(scenario))),
-        scenario.environment.water is not None or bool(heaving(scenario.environment)),
+        is_wet(scenario.environment),
         drag.make(scenario),
         body_drag.make(scenario),
         current.make(scenario),
@@ -191,24 +196,26 @@ def along_cable(
     water: Flow,
     moment: Moment,
     outside: Exogenous,
+    wet: bool,
 ) -> None:
     """Add the forces along the cable to the rates of a block, but for linear damping, which the step takes off."""
     inertia, length, slip = cable.line_inertia, moment.length, moment.slip
     if loads.size > 0:
         cable_load.add(forces.profiles, inertia, rate, loads)
-    if slip != 0.0 and forces.cable_decay != 0.0:
-        cable_damping.add_sliding(x, rate, -forces.cable_decay * slip / length)
-    if forces.drag.acts:
-        drag.add(forces.drag, inertia, x, rate, water.speed, length, outside.sink_speed, slip)
-    if outside.current_rate != 0.0 or forces.waves.deepest > 0.0:
-        current.add(forces.moved, inertia, rate, water.rate)
+    if wet:
+        if slip != 0.0 and forces.cable_decay != 0.0:
+            cable_damping.add_sliding(x, rate, -forces.cable_decay * slip / length)
+        if forces.drag.acts:
+            drag.add(forces.drag, inertia, x, rate, water.speed, length, outside.sink_speed, slip)
+        if outside.current_rate != 0.0 or forces.waves.deepest > 0.0:
+            current.add(forces.moved, inertia, rate, water.rate)
 
 
 @glue
-def on_payload(forces: Forces, ends: Ends, water: Flow) -> float:
+def on_payload(forces: Forces, ends: Ends, water: Flow, wet: bool) -> float:
     """Force on the ROV, N, besides the cable's pull and what pushes it by impulse."""
     found = payload_damping.force(forces.payload_damping, ends.tip_velocity)
-    if forces.wet:
+    if wet:
         last = water.speed.shape[1] - 1
         found += body_drag.force(forces.body_drag, water.speed[4, last] - ends.tip_velocity)
         found += forces.moved.body * water.rate[4, last]
@@ -228,6 +235,7 @@ def book_along(
     last_relative_jerk: float,
     loads: np.ndarray,
     water: Flow,
+    wet: bool,
 ) -> None:
     """Works along the cable over a step whose ``half`` is given, s, element by element; 0 after a jump.
 
@@ -240,7 +248,7 @@ def book_along(
         cable_load.book(forces.profiles, x, power.cable_load, work.cable_load, half, length, loads)
     if jerk != 0.0 or last_relative_jerk != 0.0:
         tension.book_jerk(cable, x, power.tension, work.tension, half, length, moment.net, -0.5 * jerk)
-    if forces.wet:
+    if wet:
         tension.book_sliding(cable, x, power.sliding, work.sliding, half, moment, outside)
         current.begin(power.current, work.current, half)
         if forces.drag.acts:
@@ -261,6 +269,7 @@ def book_at_ends(
     moment: Moment,
     outside: Exogenous,
     water: Flow,
+    wet: bool,
 ) -> None:
     """Works at ROV and vessel, ``half`` as in :func:`book_along`."""
     damped = payload_damping.power(forces.payload_damping, ends.tip_velocity)
@@ -270,7 +279,7 @@ def book_at_ends(
     pulled = vessel.power(cable.line_inertia, top, ends.vessel_slope, enters, moment.vessel)
     works.work_vessel += half * (works.power_vessel + pulled)
     works.power_vessel = pulled
-    if forces.wet:
+    if wet:
         book_water_at_payload(forces, cable, ends, works, half, moment, outside, water)
 
 

@@ -1,0 +1,85 @@
+"""How the variables of a kernel become values of LLVM: directly, where numba would keep them in memory.
+
+numba stores whatever is used in more than one block, reads what was there before, and writes zeros when it is done
+with it, so that it can count references. Kernels count none (``compile.py``), and for a tuple of a hundred numbers
+each of these is a hundred instructions that LLVM has to take out again.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from numba.core import ir, types
+from numba.core.analysis import compute_cfg_from_blocks, compute_use_defs
+from numba.core.compiler_machinery import register_pass
+from numba.core.lowering import Lower
+from numba.core.typed_passes import NativeLowering
+
+
+class _Lower(Lower):
+    """A variable that is assigned once, on every way to its uses, is the value itself; others stay in memory."""
+
+    def _find_singly_assigned_variable(self) -> None:
+        self._blk_local_varmap: dict[str, Any] = {}
+        flow, found = compute_cfg_from_blocks(self.blocks), compute_use_defs(self.blocks)
+        assigned = Counter(step.target.name for block in self.blocks.values() for step in block.find_insts(ir.Assign))
+        once = {name: at for at, names in found.defmap.items() for name in names if assigned[name] == 1}
+        before = flow.dominators()
+        for at, names in found.usemap.items():  # of the block without what it assigns first
+            for name in names & once.keys():
+                if once[name] == at or once[name] not in before.get(at, ()):
+                    del once[name]
+        self._singly_assigned_vars, self._order = set(once), list(flow.topo_order())
+
+    def lower_function_body(self) -> Any:
+        """Lower every block after those that come before it on every way."""
+        for label in self._order:
+            self.blkmap[label] = self.function.append_basic_block(f"B{label}")
+        self.pre_lower()
+        tail = self.builder.basic_block
+        for label in self._order:
+            self.builder.position_at_end(self.blkmap[label])
+            self.lower_block(self.blocks[label])
+        self.post_lower()
+        return tail
+
+    def lower_assign(self, ty: Any, inst: Any) -> Any:
+        """A function is called by its name; numba would note an address besides, which no file keeps."""
+        return self.context.get_dummy_value() if isinstance(ty, types.Dispatcher) else super().lower_assign(ty, inst)
+
+    def storevar(self, value: Any, name: str, argidx: int | None = None) -> None:
+        """Keep a value under a name; there is nothing to release."""
+        if name in self._singly_assigned_vars:
+            self._blk_local_varmap[name] = value
+        else:
+            self.builder.store(value, self.getvar(name))
+
+    def delvar(self, name: str) -> None:
+        """Nothing: no references are counted."""
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class LowerDirectly(NativeLowering):
+    """numba's pass with that class."""
+
+    _name = "umbilical_lowering"
+    lowering_class: Any = _Lower
+
+
+@contextmanager
+def shared_scopes() -> Iterator[None]:
+    """Let blocks that are taken into another function keep their scope, instead of a copy of all variables each.
+
+    For use under numba's compiler lock.
+    """
+    scope: Any = ir.Scope
+    nested = "__deepcopy__" in vars(scope)
+    scope.__deepcopy__ = lambda self, memo: self
+    try:
+        yield
+    finally:
+        if not nested:
+            del scope.__deepcopy__
