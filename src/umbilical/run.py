@@ -149,6 +149,13 @@ class Run:
         """The instant it ended at, s."""
         return float(self._kept.attrs["end_time"])
 
+    def with_notices(self, notices: Sequence[str]) -> Run:
+        """This run, with something to be said of it first."""
+        if notices:
+            said = [*notices, *json.loads(self._kept.attrs["notices"])]
+            self._kept.attrs["notices"] = json.dumps(said, ensure_ascii=False)
+        return self
+
     @property
     def notices(self) -> tuple[str, ...]:
         """What the user should know about this run."""

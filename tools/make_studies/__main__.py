@@ -90,7 +90,7 @@ def map_in_words(result: StudyResult) -> str:
 
 
 def front(searched: tune.Tuned) -> str:
-    """Some of the front, the two gains of the paper on the same draws, and what the linearised sampled loop says of each."""
+    """Some of the front, the two gains of the paper on the same draws, and what the linearised loop says of each."""
     names = [label_of(objective) for objective in tune.tuning_of(searched.study).objectives]
     rows = [["", *(f"`{key}`" for key in PAPERS), *names, "thrust up to", "phase", "lag"]]
     papers = tune.Trial(PAPERS, tune.judge(searched.study, PAPERS, {}, threads(default_jobs())))

@@ -14,7 +14,7 @@ from umbilical.engine.ending import Ending
 from umbilical.engine.episode import Episode
 from umbilical.engine.model import Model, make_model
 from umbilical.engine.schedule import end_of_stretch, stretch
-from umbilical.errors import ControllerError
+from umbilical.errors import ControllerError, expect
 from umbilical.library import admit
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
@@ -60,6 +60,24 @@ def simulate(
     """
     if controller is not None:
         check_controller(controller)
+    chosen, notices = _on_its_grid(scenario, controller, progress)
+    return _simulate(chosen, controller, progress).with_notices(notices)
+
+
+def _on_its_grid(
+    scenario: Scenario, controller: Controller | None, progress: Callable[[float], None] | None = None
+) -> tuple[Scenario, tuple[str, ...]]:
+    """The scenario on the grid it asks for, where it asks for one that a run chooses."""
+    expect(scenario, "Scenario", "load")
+    if scenario.grid.tolerance is None:
+        return scenario, ()
+    from umbilical.engine.resolution import on_chosen_grid
+
+    return on_chosen_grid(scenario, lambda fixed: _measure(fixed, controller), progress)
+
+
+def _simulate(scenario: Scenario, controller: Controller | None, progress: Callable[[float], None] | None) -> Run:
+    if controller is not None:
         episode = Episode(scenario, controller.period, owner=type(controller).__name__)
         error = follow(episode, controller, progress)
         run = episode.finish()
@@ -104,6 +122,10 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
     >>> measure(scenario).metrics["tip_peak"] == simulate(scenario).metrics["tip_peak"]
     True
     """
+    return _measure(_on_its_grid(scenario, controller)[0], controller)
+
+
+def _measure(scenario: Scenario, controller: Controller | None) -> Outcome:
     if controller is not None:
         episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
         if (error := follow(episode, controller)) is not None:

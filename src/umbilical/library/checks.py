@@ -68,6 +68,7 @@ CHECKS: tuple[Check, ...] = (
     adaptive.adaptation,
     adaptive.adaptation_has_its_error,
     nominal.nominal,
+    steps.grid_of_a_rope,
     steps.grid_near_the_payload,
     high_gain.high_gain_observers,
     *(check for law in LAWS.values() for check in law.checks),

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, WithJsonSchema, model_validator
 
-from umbilical.scenario.base import Record, quantity
+from umbilical.scenario.base import Record, measured, quantity
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape, Straight
 from umbilical.scenario.faults import Fault
@@ -16,16 +16,44 @@ from umbilical.scenario.rope import Rope
 from umbilical.scenario.sensors import Sensors
 from umbilical.scenario.winch import Winch
 
+ELEMENTS = 64
+TOLERANCE = 1e-3
+_AUTO: Any = {"anyOf": [{"type": "integer", "minimum": 4, "maximum": 4096}, {"const": "auto"}]}
+
 
 class Grid(Record):
-    """The discretisation. Its order is fixed (5 in the element size, 3 in the step); its fineness is not."""
+    """The discretisation. Its order is fixed (5 in the element size, 3 in the step); its fineness is not.
 
-    elements: int = Field(
-        default=64, ge=4, le=4096, description="elements along the cable, four intervals of nodes each"
+    With ``elements = "auto"`` or a ``tolerance`` a run chooses elements and step itself
+    (:mod:`umbilical.engine.resolution`); the number given is then where nothing is run, as for the checks.
+    """
+
+    elements: Annotated[int, WithJsonSchema(_AUTO)] = Field(
+        default=ELEMENTS,
+        ge=4,
+        le=4096,
+        description='elements along the cable, four intervals of nodes each; "auto" chooses by the tolerance',
+    )
+    tolerance: float | None = measured(
+        "1",
+        "relative error of the largest displacements of ROV and midpoint by which a run chooses elements and step",
+        None,
+        ge=1e-6,
+        le=0.1,
+        reason="below it the step's own round-off counts",
+        cure="1e-3",
     )
     step: float = quantity(
         "plant_step", 1e-3, gt=0.0, le=1.0, reason="the plant divides a control period", cure="1e-3 s"
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _automatic(cls, data: Any) -> Any:
+        if not isinstance(data, Mapping) or data.get("elements") != "auto":
+            return data
+        asked = data.get("tolerance")
+        return {**data, "elements": ELEMENTS, "tolerance": TOLERANCE if asked is None else asked}
 
 
 class Output(Record):

@@ -14,6 +14,7 @@ from umbilical.errors import OutputError, expect
 from umbilical.formats import to_netcdf
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs, processes, threads
+from umbilical.studies.grids import on_one_grid
 from umbilical.studies.members import Draws, Member
 from umbilical.studies.results import StudyResult, assemble
 from umbilical.studies.room import check_memory
@@ -67,6 +68,7 @@ def sweep(
     96
     """
     expect(study, "Study", "load_study")
+    study = on_one_grid(study)
     check_memory(study)
     check_controllers(study, trust=trust)
     draws = Draws(study)

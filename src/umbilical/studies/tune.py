@@ -22,6 +22,7 @@ from umbilical.scenario.problems import nearest
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs
+from umbilical.studies.grids import on_one_grid
 from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, arm_data
 from umbilical.studies.results import StudyResult
@@ -131,6 +132,7 @@ def tune(
     tuning = tuning_of(study)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
+    study = on_one_grid(study)
     check_memory(study)
     check_controllers(study, trust=trust)
     engine = engine or default_engine(study, default_jobs())

@@ -37,6 +37,13 @@ def plant_step(control: Control, grid: Grid) -> float:
     return _whole_part(control.period, grid.step)
 
 
+def grid_of_a_rope(model: str, grid: Grid) -> Iterator[Problem]:
+    """The grid that a run chooses is the string's."""
+    if model == "rope" and grid.tolerance is not None:
+        reason = "only the string's grid is chosen by runs; a rope has elements of its own"
+        yield Problem("grid.tolerance", f"{grid.tolerance:g}", "left out", reason, "compare runs with rope.elements")
+
+
 def chosen_step(scenario: Scenario) -> float:
     """The step taken, s: as :func:`plant_step`, and short enough for the waves on the cable all through the run.
 

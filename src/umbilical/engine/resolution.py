@@ -1,0 +1,139 @@
+"""A grid that is fine enough for a scenario, found by runs.
+
+The peaks at the ROV and at the midpoint on a grid are compared with those on twice and on four times its elements, and
+with those on half its step; the least grid whose differences stay within the tolerance is taken. Where a front runs
+through the cable (a load that jumps, a fault) peaks converge at first order only, and no grid that is tried may do: the
+finest that was compared is taken then, with what its error is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from umbilical.errors import ScenarioError
+from umbilical.plant.checks.steps import chosen_step
+from umbilical.scenario.scenario import Scenario
+
+GRIDS = (4, 8, 16, 32, 64, 128, 256, 512)
+"""Elements that are tried, one after the other; the last two are only compared with."""
+WATCHED = ("tip_peak", "mid_peak")
+NOTHING = 1e-9
+"""m: a peak below it is rest, and has no relative error."""
+
+Peaks = Mapping[str, float]
+Measure = Callable[[Scenario], Any]
+"""What gives the ``status`` of a run and its ``metrics``."""
+
+
+class Choice(NamedTuple):
+    """A grid and what is known of it.
+
+    Attributes:
+        elements: along the cable.
+        step: of the plant, s.
+        estimate: largest relative difference of a peak from four times the elements, or from half the step.
+        tolerance: what was asked.
+    """
+
+    elements: int
+    step: float
+    estimate: float
+    tolerance: float
+
+    @property
+    def reached(self) -> bool:
+        """Whether the tolerance is kept."""
+        return self.estimate <= self.tolerance
+
+    def __str__(self) -> str:
+        kept = "" if self.reached else f", which misses the tolerance of {self.tolerance:g}"
+        return (
+            f"grid: {self.elements} elements and a step of {self.step:g} s were chosen; the peaks at ROV and midpoint "
+            f"are within {self.estimate:.1e} of those on {4 * self.elements} elements{kept}"
+        )
+
+
+def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float], None] | None = None) -> Choice:
+    """The least grid of :data:`GRIDS` on which the peaks are right within ``grid.tolerance``.
+
+    Args:
+        scenario: one with a tolerance.
+        measure: how a run on a fixed grid ends, and its metrics.
+        progress: called with the share of the grids that were tried.
+
+    Raises:
+        ScenarioError: not even the coarsest three grids are admitted.
+    """
+    tolerance = scenario.grid.tolerance
+    assert tolerance is not None
+    step = _fine_step(scenario, measure, 0.25 * tolerance)
+    found: dict[int, Peaks] = {}
+    choice = None
+    for count, elements in enumerate(GRIDS):
+        try:
+            found[elements] = _peaks(scenario, measure, elements, step)
+        except ScenarioError:  # too large for the machine, or too short a step
+            if choice is None:
+                raise
+            break
+        if progress:
+            progress((count + 1) / len(GRIDS))
+        if count < 2:
+            continue
+        coarse = GRIDS[count - 2]
+        error = max(difference(found[coarse], found[finer]) for finer in GRIDS[count - 1 : count + 1])
+        choice = Choice(coarse, _taken(scenario, coarse, step), error, tolerance)
+        if choice.reached:
+            break
+    assert choice is not None
+    return choice
+
+
+def on_chosen_grid(
+    scenario: Scenario, measure: Measure, progress: Callable[[float], None] | None = None
+) -> tuple[Scenario, tuple[str, ...]]:
+    """A scenario with the grid it asks for, and what is to be said of it; itself where it names its grid."""
+    if scenario.grid.tolerance is None:
+        return scenario, ()
+    choice = choose_grid(scenario, measure, progress)
+    return fixed(scenario, choice.elements, choice.step), (str(choice),)
+
+
+def fixed(scenario: Scenario, elements: int, step: float) -> Scenario:
+    """A scenario on a grid that is no longer chosen."""
+    return scenario.replace({"grid.elements": elements, "grid.step": step, "grid.tolerance": None})
+
+
+def difference(peaks: Peaks, finer: Peaks) -> float:
+    """Largest relative difference of a peak; infinite where one run ended otherwise than the other.
+
+    >>> difference({"tip_peak": 1.0, "mid_peak": 0.0}, {"tip_peak": 1.25, "mid_peak": 1e-12})
+    0.2
+    """
+    if peaks.keys() != finer.keys():
+        return float("inf")
+    return max((abs(peaks[name] - size) / size for name, size in finer.items() if size > NOTHING), default=0.0)
+
+
+def _peaks(scenario: Scenario, measure: Measure, elements: int, step: float) -> Peaks:
+    """The peaks of one run, under names that say whether it came to its end."""
+    found = measure(fixed(scenario, elements, step))
+    return {f"{found.status.name} {name}": found.metrics[name] for name in WATCHED if name in found.metrics}
+
+
+def _fine_step(scenario: Scenario, measure: Measure, tolerance: float, elements: int = GRIDS[2]) -> float:
+    """A step whose half moves the peaks by no more than the tolerance."""
+    step = scenario.grid.step
+    peaks = _peaks(scenario, measure, elements, step)
+    for _ in range(4):
+        step_taken = _taken(scenario, elements, step)
+        halved = _peaks(scenario, measure, elements, step_taken / 2)
+        if difference(peaks, halved) <= tolerance:
+            return step
+        step, peaks = step_taken / 2, halved
+    return step
+
+
+def _taken(scenario: Scenario, elements: int, step: float) -> float:
+    return chosen_step(fixed(scenario, elements, step))
