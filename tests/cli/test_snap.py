@@ -12,6 +12,7 @@ def test_the_accepted_risk_is_judged(umbilical, risk, code, word):
     done = umbilical(*SHORT, "--risk", risk)
     assert done.code == code
     assert word in done.out.splitlines()[0]
+    assert "2 seeds of 20 s, roughly" in done.err
 
 
 def test_a_string_is_refused(umbilical):

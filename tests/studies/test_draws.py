@@ -150,3 +150,28 @@ def test_what_is_set_of_the_scenario_is_the_last_word_on_it():
     assert load_study("paper-robustness", {"scenario.grid.elements": 8}) == coarse
     both = study.replace({"scenario.grid.elements": 8, "changes": {"grid.elements": 16}})
     assert Draws(both).scenario(Draws(both).member(1), 0).grid.elements == 16
+
+
+@pytest.mark.parametrize(
+    "distribution",
+    ['{kind = "uniform", low = 0.0, high = 100.0, step = 1.0}', '{kind = "grid", low = 1.0, high = 5.0, count = 5}'],
+)
+def test_whole_numbers_such_as_seeds_of_a_sea_are_drawn_by_steps(distribution, tmp_path):
+    text = f"""
+name = "seas"
+scenario = "work-class-3000m"
+members = 3
+factors = [
+  {{key = "environment.sea.seed", distribution = {distribution}}},
+  {{key = "grid.elements", relative = true, distribution = {{kind = "choice", values = [0.5, 2.0]}}}},
+]
+changes = {{duration = 10.0}}
+arms = [{{name = "only"}}]
+"""
+    (tmp_path / "seas.toml").write_text(text)
+    drawn = Draws(load_study(tmp_path / "seas.toml"))
+    for number in (1, 2, 3):
+        scenario = drawn.scenario(drawn.member(number), 0)
+        assert scenario.environment.sea is not None
+        assert type(scenario.environment.sea.seed) is int
+        assert type(scenario.grid.elements) is int

@@ -53,3 +53,17 @@ def test_what_says_nothing_is_refused(changes: dict[str, object], key: str) -> N
     with pytest.raises(ScenarioError) as caught:
         snap(load("work-class-3000m", ROUGH).replace(changes), 2)
     assert caught.value.problems[0].key == key
+
+
+def test_runs_that_do_not_complete_say_why() -> None:
+    """A Gumbel distribution, a share and a picture need runs; without them the verdict is that there is none."""
+    from dataclasses import replace
+
+    found = snap(load("work-class-3000m", ROUGH), 2)
+    none = replace(found, completed=np.zeros(2, dtype=bool), reasons=("at t = 3 s it parted",))
+    assert "UNRESOLVED" in none.summary().splitlines()[0]
+    assert "it parted" in none.summary()
+    assert none.to_dict()["exit_code"] == 7
+    with pytest.raises(ValueError, match="no run completed"):
+        none.plot()
+    assert found.plot().get_xlabel() == "largest tension of a run [kN]"

@@ -21,6 +21,7 @@ from umbilical.plots.observers import plot_observers
 from umbilical.plots.operability import plot_lowering, plot_operability
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
 from umbilical.plots.rope import plot_shape, plot_tension
+from umbilical.plots.snap import plot_snaps
 from umbilical.plots.study import (
     STUDY_PLOTS,
     plot_comparison,
@@ -73,6 +74,7 @@ __all__ = [
     "plot_positions",
     "plot_sensitivity",
     "plot_shape",
+    "plot_snaps",
     "plot_study",
     "plot_tension",
     "plot_tip",

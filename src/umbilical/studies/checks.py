@@ -16,7 +16,7 @@ from umbilical.scenario.inventory import words_at
 from umbilical.scenario.problems import nearest
 from umbilical.studies.designs import size
 from umbilical.studies.distributions import Grid, LogUniform, Uniform, count, draw, is_number
-from umbilical.studies.members import arm_data, needed_of_a_fault, variables
+from umbilical.studies.members import arm_data, given_by, needed_of_a_fault, variables
 from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Factor, Study
 
@@ -195,8 +195,7 @@ def _draws_in_the_middle(study: Study) -> Iterator[Problem]:
 
 
 def _drawn_in_the_middle(study: Study, factor: Factor) -> Any:
-    value: Any = draw(factor.distribution, _MIDDLE)
-    return value * look_up(arm_data(study, {}), factor.key) if factor.relative else value
+    return given_by(arm_data(study, {}), factor, draw(factor.distribution, _MIDDLE))
 
 
 def _gains_in_the_middle(study: Study) -> Iterator[Problem]:

@@ -13,7 +13,7 @@ from umbilical.scenario import Scenario
 from umbilical.scenario.document import look_up, override, validate
 from umbilical.studies.designs import child_seed, points, size
 from umbilical.studies.distributions import Choice, Distribution, Drawn, count, draw
-from umbilical.studies.study import Campaign, Study
+from umbilical.studies.study import Campaign, Factor, Study
 
 _NUMBERS_OF_A_FAULT = ("start", "effectiveness", "value", "over", "cycle", "duty")
 _BELONGS_TO = {
@@ -137,9 +137,19 @@ class Draws:
         changes: dict[str, Any] = {}
         for factor in self.study.factors:
             value: Any = values[factor.key]
-            changes[factor.key] = value * look_up(self._base, factor.key) if factor.relative else value
+            changes[factor.key] = given_by(self._base, factor, value)
         faults = [fault for campaign in self.study.campaigns if (fault := _fault(campaign, values))]
         return changes | ({"faults": [*self._base.get("faults", ()), *faults]} if faults else {})
+
+
+def given_by(base: Mapping[str, Any], factor: Factor, value: Any) -> Any:
+    """What a scenario gets for a drawn value: relative ones multiply, and a whole number stays one."""
+    try:
+        stated = look_up(base, factor.key)
+    except KeyError:
+        return value
+    drawn = value * stated if factor.relative else value
+    return int(drawn) if type(stated) is int and isinstance(drawn, float) and drawn.is_integer() else drawn
 
 
 def arm_data(study: Study, changes: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import sqrt
-from typing import Any
+from typing import ClassVar
 
 import numpy as np
 from scipy.stats import gumbel_r
@@ -16,6 +16,7 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.plant.rope.assemble import body_data, stiffness, weights_of
 from umbilical.plant.rope.records import vector_of
 from umbilical.plant.top import top_at
+from umbilical.result import ResultFaces
 from umbilical.run import Status
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.engines import in_order
@@ -23,6 +24,8 @@ from umbilical.studies.engines import in_order
 LEVEL = 0.95
 """Confidence of the intervals."""
 _RESAMPLED = 400
+_STORED = 0.5
+"""Longest time between two samples from which speeds are read, s."""
 _FEWEST = 5
 """Maxima below which no distribution is fitted."""
 
@@ -42,13 +45,14 @@ class Extreme:
 
 
 @dataclass(frozen=True)
-class SnapStudy:
+class SnapStudy(ResultFaces):
     """What many seeds of one scenario came to; arrays have the shape (seeds,).
 
     Attributes:
         scenario: what was run.
         seeds: of the runs.
         completed: whether a run came to its end; the others are in no statistic.
+        reasons: why others did not, each once.
         largest_tension: at either end, N.
         snaps: how often the cable became taut after slack.
         largest_snap: N; 0 without a snap.
@@ -58,9 +62,13 @@ class SnapStudy:
         extreme: of the largest tensions; None where too few runs completed.
     """
 
+    shown_by: ClassVar[str] = "umbilical.faces.snap"
+    drawn_by: ClassVar[str] = "plot_snaps"
+
     scenario: Scenario
     seeds: np.ndarray
     completed: np.ndarray
+    reasons: tuple[str, ...]
     largest_tension: np.ndarray
     snaps: np.ndarray
     largest_snap: np.ndarray
@@ -79,63 +87,48 @@ class SnapStudy:
             stiffness(self.scenario) / rope_length * mass
         )
 
-    def summary(self) -> str:
-        """One line: probability of slack, largest snap."""
-        runs = f"{int(self.completed.sum())} of {self.seeds.size} seeds completed"
-        slack = f"slack in {self.slack.value:.3g} of the runs ({self.slack.low:.3g} to {self.slack.high:.3g})"
-        largest = float(self.largest_snap.max())
-        return f"{runs}; {slack}; " + (f"largest snap {largest:.4g} N" if largest else "no snap")
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain data."""
-        extreme = self.extreme
-        return {
-            "scenario": self.scenario.name,
-            "seeds": self.seeds.tolist(),
-            "completed": self.completed.tolist(),
-            "largest_tension": self.largest_tension.tolist(),
-            "snaps": self.snaps.tolist(),
-            "largest_snap": self.largest_snap.tolist(),
-            "static_tension": self.static_tension,
-            "rule_of_thumb": self.rule_of_thumb,
-            "slack": self.slack._asdict(),
-            "gumbel": extreme
-            and {
-                "location": extreme.location,
-                "scale": extreme.scale,
-                "exceeded_by_1_in_100": extreme.exceeded._asdict(),
-            },
-        }
-
 
 def snap(
-    scenario: Scenario, seeds: int = 20, *, workers: int = 1, progress: Callable[[float], None] | None = None
-) -> SnapStudy:
+    scenario: Scenario, seeds: int = 20, *, workers: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> SnapStudy:  # fmt: skip
     """Run a rope with seeds of its own and of the next ones: each has another sea.
 
     Args:
         scenario: with ``model = "rope"``.
         seeds: how many.
-        workers: threads; results do not depend on them.
+        workers: threads; results do not depend on them. All cores by default.
         progress: called with the share that is done.
 
     Raises:
         ScenarioError: the scenario is refused, is no rope, or its seeds change nothing.
     """
-    _check(scenario, seeds)
+    check(scenario, seeds)
     sea = scenario.environment.sea
     chosen = (sea.seed if sea else 0) + np.arange(seeds)
-    changed = [scenario.replace({"environment.sea.seed": seed}) for seed in chosen.tolist()]
+    kept = {} if scenario.output.interval <= _STORED else {"output.interval": _near(_STORED, scenario.control.period)}
+    changed = [scenario.replace({"environment.sea.seed": seed, **kept}) for seed in chosen.tolist()]
     rows = in_order(_one, changed, progress, workers)
-    completed, tension, snaps, largest, slack, speed = np.array(rows).T
+    completed, tension, snaps, largest, slack, speed = np.array([numbers for numbers, _ in rows]).T
+    reasons = tuple(dict.fromkeys(reason for _, reason in rows if reason))
     good = completed > 0.0
     return SnapStudy(
-        scenario, chosen, good, tension, snaps.astype(int), largest, weights_of(scenario)[1], speed,
+        scenario, chosen, good, reasons, tension, snaps.astype(int), largest, weights_of(scenario)[1], speed,
         share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], int(chosen[0])),
     )  # fmt: skip
 
 
-def _check(scenario: Scenario, seeds: int) -> None:
+def _near(interval: float, period: float) -> float:
+    """The multiple of a control period that is just within an interval; one period at the least."""
+    return period * max(1.0, interval // period)
+
+
+def check(scenario: Scenario, seeds: int) -> None:
+    """Refuse what no seeds say anything of.
+
+    Raises:
+        ScenarioError: no rope, no sea, or no seeds.
+    """
     wrong = None
     if scenario.model != "rope":
         wrong = Problem("model", f'"{scenario.model}"', '"rope"', "a string never goes slack", 'set model = "rope"')
@@ -148,15 +141,17 @@ def _check(scenario: Scenario, seeds: int) -> None:
         raise ScenarioError([wrong], scenario.name)
 
 
-def _one(scenario: Scenario) -> tuple[float, ...]:
-    """Whether it completed, largest tension, snaps, largest snap, whether it was slack, largest impact speed."""
+def _one(scenario: Scenario) -> tuple[tuple[float, ...], str]:
+    """Whether it completed, largest tension, snaps, largest snap, whether it was slack, largest impact speed; and why
+    it did not complete."""
     run = simulate(scenario)
     m = run.metrics
     sheave = np.gradient(run["vessel_position"].values[:, 2], run["time"].values)
     impact = float(np.abs(run["body_velocity"].values[:, 2] - sheave).max())
     largest = max(m["top_tension_peak"], m["end_tension_peak"])
     completed = run.status is Status.COMPLETED
-    return completed, largest, m["snaps"], m.get("largest_snap", 0.0), m["slack_share"] > 0.0, impact
+    numbers = (completed, largest, m["snaps"], m.get("largest_snap", 0.0), m["slack_share"] > 0.0, impact)
+    return numbers, "" if completed else run.reason
 
 
 def _extreme(tension: np.ndarray, seed: int) -> Extreme | None:

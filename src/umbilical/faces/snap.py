@@ -1,0 +1,82 @@
+"""How likely a rope goes slack and how hard it snaps, as text and as data."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from umbilical.faces.conclusion import Conclusion
+
+if TYPE_CHECKING:
+    from umbilical.studies.snap import SnapStudy
+
+
+def conclusion(found: SnapStudy, risk: float | None = None) -> Conclusion:
+    """Whether slack is as unlikely as was asked, if it was."""
+    if not found.completed.all():
+        return Conclusion("UNRESOLVED", f"UNRESOLVED, not every seed completed: {_told(found)}")
+    if risk is None:
+        return Conclusion("NOT_ASKED", _told(found))
+    if found.slack.high <= risk:
+        return Conclusion("HOLDS", f"{_told(found)}; within the accepted {risk:g}")
+    if found.slack.low > risk:
+        return Conclusion("DOES_NOT_HOLD", f"{_told(found)}; ABOVE the accepted {risk:g}")
+    return Conclusion("UNRESOLVED", f"UNRESOLVED, more seeds are needed for {risk:g}: {_told(found)}")
+
+
+def _told(found: SnapStudy) -> str:
+    """Probability of slack and largest snap."""
+    ran, good = found.seeds.size, int(found.completed.sum())
+    runs = f"{ran} seeds of {found.scenario.duration:g} s" + ("" if good == ran else f", {good} completed")
+    if not good:
+        return runs
+    chance = f"probability {found.slack.low:.2g} to {found.slack.high:.2g}"
+    slack = f"slack in {round(found.slack.value * good)} of {good} ({chance})"
+    largest = float(found.largest_snap[found.completed].max())
+    return f"{runs}: {slack}; " + (f"largest snap {largest:.4g} N" if largest else "no snap")
+
+
+def text(found: SnapStudy, risk: float | None = None) -> str:
+    """What the runs came to, the rule of thumb beside it, and the distribution of the largest tensions."""
+    lines = [f"  did not complete: {reason}" for reason in found.reasons]
+    if found.completed.any():
+        largest = found.largest_tension[found.completed].max()
+        lines += [
+            f"  snaps in all runs: {int(found.snaps[found.completed].sum())}",
+            f"  largest tension: {largest:.4g} N; static at the vessel {found.static_tension:.4g} N",
+            f"  rule of thumb, static + v sqrt(K M): {found.rule_of_thumb:.4g} N at the largest speed of the body "
+            f"against the sheave, {found.impact_speed.max():.3g} m/s; waves along the cable can double v sqrt(K M)",
+            f"  {_fitted(found)}",
+        ]
+    return "\n".join([*lines, f"  assumed: {', '.join(found.scenario.assumed) or 'nothing'}"])
+
+
+def _fitted(found: SnapStudy) -> str:
+    if (fit := found.extreme) is None:
+        return "no distribution of the largest tensions: fewer than five runs completed"
+    e = fit.exceeded
+    return (
+        f"Gumbel of the largest tensions: location {fit.location:.4g} N, scale {fit.scale:.4g} N; one run in a hundred "
+        f"exceeds {e.value:.4g} N ({e.low:.4g} to {e.high:.4g})"
+    )
+
+
+def document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:
+    """As plain data."""
+    fit = found.extreme
+    return {
+        "scenario": found.scenario.name,
+        "scenario_hash": found.scenario.hash,
+        "seeds": found.seeds.tolist(),
+        "completed": found.completed.tolist(),
+        "reasons": found.reasons,
+        "largest_tension": found.largest_tension.tolist(),
+        "snaps": found.snaps.tolist(),
+        "largest_snap": found.largest_snap.tolist(),
+        "impact_speed": found.impact_speed.tolist(),
+        "static_tension": found.static_tension,
+        "rule_of_thumb": found.rule_of_thumb,
+        "slack": found.slack._asdict(),
+        "gumbel": fit
+        and {"location": fit.location, "scale": fit.scale, "exceeded_by_1_in_100": fit.exceeded._asdict()},
+        "accepted_risk": risk,
+    }
