@@ -436,3 +436,9 @@ def test_any_number_is_admitted_or_refused_but_never_crashes(key: str, value: fl
     for tried in (value, here * blend):
         with suppress(ScenarioError):
             load("paper-stuck-adaptive", {key: tried})
+
+
+def test_a_table_that_was_expected_is_named_with_its_keys():
+    found = problems({"payload": 500.0, "environment.water": {"current": [[0.0, 0.7]]}}, "paper")
+    assert [problem.cure for problem in found["payload"]] == ["give a table with mass, damping"]
+    assert [problem.cure for problem in found["environment.water.current"]] == ["give a table with depths, speeds"]

@@ -114,8 +114,17 @@ def _plain(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], reco
         shown(complaint["input"], field),
         bound,
         word(field, "reason") or (field.description if field else "") or "it must be of the right kind",
-        word(field, "cure") or f"give {bound}",
+        word(field, "cure") or f"give {bound}{_keys(locate(record, complaint['loc']).annotation)}",
     )
+
+
+def _keys(annotation: Any) -> str:
+    """Which keys a table has that was expected: those it needs, or all."""
+    kinds = records(annotation)
+    if len(kinds) != 1:
+        return ""
+    needed = [name for name, field in kinds[0].model_fields.items() if field.is_required()]
+    return f" with {', '.join(needed or kinds[0].model_fields)}"
 
 
 def _unknown(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
