@@ -17,6 +17,7 @@ from benchmarks.machine import machine, peak_of_children
 from benchmarks.rope import rope_rows
 from benchmarks.rows import Row
 from benchmarks.study import memory_row, study_rows
+from benchmarks.water import water_rows
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -74,7 +75,14 @@ def measure_all(
     # Processes come first: what they need of memory is read from this process's children, while it is still small.
     rows = _processes(cold) + ([memory_row(members)] if members else [])
     progress(0.2)
-    rows = [*_compiled(repeat, progress), *c_rows(repeat), *_others(members), *rope_rows(repeat), *rows]
+    rows = [
+        *_compiled(repeat, progress),
+        *c_rows(repeat),
+        *_others(members),
+        *water_rows(repeat),
+        *rope_rows(repeat),
+        *rows,
+    ]
     progress(1.0)
     return Bench(machine(), tuple(rows))
 

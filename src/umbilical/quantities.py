@@ -257,7 +257,7 @@ STATES: dict[str, Quantity] = {
     "newest_rate":             Quantity("1", "", "which of the last three rates is the newest"),
     "rate_weights":            Quantity("s", "", "weights of the newest, the last and the one before in the present step"),
     "last_step":               Quantity("s", "", "length of the last step"),
-    "last_relative_jerk":      Quantity("1/s", "", "relative jerk of the winch at the end of the last step"),
+    "slides":                  Quantity("1", "", "whether drag along the cable, added mass or stretch changed the tension in the last step"),
     "power_payload_damping":   Quantity("W", "", "power of the ROV's damping"),
     "power_vessel":            Quantity("W", "", "power through the vessel end"),
     # sensors

@@ -85,6 +85,7 @@ def test_every_row_is_measured():
         "compiled loop, 50 s",
         "Python loop, 50 s",
         "rope, 1000 m, control at 5 ms, 60 s",
+        "string in drag and current over calm, held",
         "numpy + scipy solve_ivp, 50 s",
         "umbilical run paper --json",
         "umbilical --help",

@@ -30,6 +30,7 @@ from umbilical.plant.forces.table import (
     Along,
     EndWorks,
     Forces,
+    LastTension,
     along_cable,
     book_along,
     book_at_ends,
@@ -72,7 +73,7 @@ class Instant(Frame):
     newest_rate = integer()
     rate_weights = vector(3)
     last_step = real()
-    last_relative_jerk = real()
+    last_tension = part(LastTension)
     works = part(EndWorks)
 
 
@@ -210,11 +211,10 @@ def derive(plant: Plant, state: PlantState, half: float, wet: bool) -> None:
     look_at_ends(cable, x, ends, moment)
     book_at_ends(plant.forces, cable, ends, now.works, half, moment, outside, state.water, wet)
     if plant.booked:
-        last, loads, water = now.last_relative_jerk, state.loads, state.water
+        last, loads, water = now.last_tension, state.loads, state.water
         book_along(
             plant.forces, cable, x, state.power, state.work, half, moment, outside, last, loads, water, wet
         )  # fmt: skip
-    now.last_relative_jerk = outside.relative_jerk
 
 
 @glue

@@ -69,6 +69,8 @@ class Ends(Frame):
     slip = real()
     current_length = real()
     current_heave = real()
+    current_factor = real()
+    current_rate = real()
 
 
 class Cable(NamedTuple):

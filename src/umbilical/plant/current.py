@@ -66,22 +66,24 @@ def fill(profile: Profile, above: np.ndarray, out: np.ndarray, length: float, he
     elements = out.shape[1]
     for j in range(5):
         row, share = out[j], above[j]
-        for e in range(elements):
-            row[e] = profile.surface
         for k in range(profile.starts.size):
             start, span, slope = profile.starts[k], profile.spans[k], profile.slopes[k]
-            for e in range(elements):
-                row[e] += slope * min(max(length * (1.0 - share[e]) - heave - start, 0.0), span)
+            if k == 0:
+                for e in range(elements):
+                    depth = length * (1.0 - share[e]) - heave
+                    row[e] = profile.surface + slope * min(max(depth - start, 0.0), span)
+            else:
+                for e in range(elements):
+                    row[e] += slope * min(max(length * (1.0 - share[e]) - heave - start, 0.0), span)
 
 
 @kernel
-def vary(flow: Flow, factor: float, change: float) -> None:
-    """Speed and rate of the profile times a factor of time, and its ``change``, 1/s."""
+def scale(profile: np.ndarray, factor: float, out: np.ndarray) -> None:
+    """out: a profile times its factor of time, or times the rate of that."""
     for j in range(5):
-        profile, speed, rate = flow.profile[j], flow.speed[j], flow.rate[j]
-        for e in range(profile.size):
-            speed[e] = factor * profile[e]
-            rate[e] = change * profile[e]
+        row, scaled = profile[j], out[j]
+        for e in range(row.size):
+            scaled[e] = factor * row[e]
 
 
 @kernel

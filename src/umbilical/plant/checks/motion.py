@@ -142,7 +142,7 @@ def tension(
             f"below {'gravity, ' if bound[worst] == environment.gravity else ''}{bound[worst]:.6g} m/s2",
             "the tension, the weight below a point less its mass times the acceleration"
             f"{' and less its drag' if drags else ''}, must stay above 0: a cable cannot push",
-            "pay out more gently",
+            "pay out more slowly: by itself it sinks no faster" if bound[worst] < 0.0 else "pay out more gently",
         )
 
 

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.frames import Frame, real
+from umbilical.frames import Frame, integer, real
 from umbilical.plant import current as profile_of_current
 from umbilical.plant.cable import Cable, Ends, Moment
 from umbilical.plant.current import Flow, Profile, make_profile
@@ -118,6 +118,13 @@ class EndWorks(Frame):
     power_added_mass = real()
 
 
+class LastTension(Frame):
+    """How the tension changed at the end of the last step: the winch's relative jerk, and whether it slid."""
+
+    relative_jerk = real()
+    slides = integer()
+
+
 class Along(NamedTuple):
     """A power, W, or its work, J, in each element of the cable, shape (n,) each; ``grid``: at each interface.
 
@@ -173,14 +180,18 @@ def make_along(elements: int) -> Along:
 
 @glue
 def flow_past(forces: Forces, cable: Cable, ends: Ends, water: Flow, outside: Exogenous, orbits: np.ndarray) -> None:
-    """The water at the nodes, as deep as they are now; the current's profile is worked out where that has changed."""
-    length, heave = outside.length, outside.heave
-    waves = forces.waves.deepest > 0.0
-    if forces.current.starts.size > 0 and (length != ends.current_length or heave != ends.current_heave):
+    """The water at the nodes, as deep as they are now: worked out where depth, current or waves have changed it."""
+    length, heave, factor, change = outside.length, outside.heave, outside.current_factor, outside.current_rate
+    waves, flows = forces.waves.deepest > 0.0, forces.current.starts.size > 0
+    moved = length != ends.current_length or heave != ends.current_heave
+    if flows and moved:
         profile_of_current.fill(forces.current, cable.above, water.profile, length, heave)
         ends.current_length, ends.current_heave = length, heave
-    if waves or forces.current.starts.size > 0:
-        profile_of_current.vary(water, outside.current_factor, outside.current_rate)
+    if waves or (flows and (moved or factor != ends.current_factor or change != ends.current_rate)):
+        profile_of_current.scale(water.profile, factor, water.speed)
+        if waves or change != 0.0 or ends.current_rate != 0.0:
+            profile_of_current.scale(water.profile, change, water.rate)
+        ends.current_factor, ends.current_rate = factor, change
     if waves:
         look_at_waves(orbits, outside.wave_place, water.orbit)
         profile_of_current.add_waves(forces.waves, cable.above, water, length, heave)
@@ -232,30 +243,35 @@ def book_along(
     half: float,
     moment: Moment,
     outside: Exogenous,
-    last_relative_jerk: float,
+    last: LastTension,
     loads: np.ndarray,
     water: Flow,
     wet: bool,
 ) -> None:
     """Works along the cable over a step whose ``half`` is given, s, element by element; 0 after a jump.
 
-    The tension works only while the winch acceleration changes, or did at the start of the step.
+    The tension works only while it changes, or did at the start of the step.
     """
     length, jerk, slip, sinks = moment.length, outside.relative_jerk, moment.slip, outside.sink_speed
     if forces.cable_damping != 0.0:
         cable_damping.book(forces.cable_damping, x, power.cable_damping, work.cable_damping, half, length, slip)
     if loads.size > 0:
         cable_load.book(forces.profiles, x, power.cable_load, work.cable_load, half, length, loads)
-    if jerk != 0.0 or last_relative_jerk != 0.0:
+    if jerk != 0.0 or last.relative_jerk != 0.0:
         tension.book_jerk(cable, x, power.tension, work.tension, half, length, moment.net, -0.5 * jerk)
+    last.relative_jerk = jerk
     if wet:
-        tension.book_sliding(cable, x, power.sliding, work.sliding, half, moment, outside)
+        foot, rise = tension.sliding(cable, moment, outside)
+        if foot != 0.0 or rise != 0.0 or last.slides:
+            tension.book(cable.above, x, power.sliding, work.sliding, half, length, 0.5, foot, rise)
+        last.slides = foot != 0.0 or rise != 0.0
         current.begin(power.current, work.current, half)
         if forces.drag.acts:
             drag.book(
                 forces.drag, x, power.drag, work.drag, power.current, water.speed, half, length, sinks, slip
             )  # fmt: skip
-        current.give(forces.moved, x, power.current, water.rate, length)
+        if outside.current_rate != 0.0 or forces.waves.deepest > 0.0:
+            current.give(forces.moved, x, power.current, water.rate, length)
         current.end(power.current, work.current, half)
 
 

@@ -53,16 +53,13 @@ def book_jerk(
 
 
 @glue
-def book_sliding(
-    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, moment: Moment, outside: Exogenous
-) -> None:
-    """What sinking changes beside the jerk: ``1/2 int (Tt_t + vb T_x) p^2``: drag along, added mass, stretch."""
+def sliding(cable: Cable, moment: Moment, outside: Exogenous) -> tuple[float, float]:
+    """``Tt_t + vb T_x`` beside the jerk's part, at the ROV and above it, N/s: drag along, added mass, stretch."""
     foot, slope = sliding_rates(
         moment.hung, cable.axial_drag, cable.coupling, moment.slip, moment.net, outside.sink_speed,
         outside.sink_acceleration,
     )  # fmt: skip
-    foot, rise = foot + outside.elastic_tension_rate, (slope + outside.elastic_gradient_rate) * moment.length
-    book(cable.above, x, power, work, half, moment.length, 0.5, foot, rise)
+    return foot + outside.elastic_tension_rate, (slope + outside.elastic_gradient_rate) * moment.length
 
 
 FORCE = Force("work_tension")
