@@ -140,6 +140,17 @@ def test_a_sea_beyond_the_table_is_refused() -> None:
     assert "energy" in str(next(sea_problems(vessel(), Spectrum(2.0, 4.0), 2.0)))
 
 
+def test_what_a_table_moves_in_shorter_waves_can_be_declared() -> None:
+    shorter, last = np.array([3.0, 5.0]), np.array([2.6])
+    cases: list[Any] = [("hold", 1.0), ("zero", 0.0)]
+    for outside, share in cases:
+        ship = vessel(outside=outside)
+        assert not [*sea_problems(ship, Spectrum(2.0, 4.0), 2.0)]
+        found, end = (np.array(ship.motions(omega, 2.0)) for omega in (shorter, last))
+        assert found == pytest.approx(share * end.repeat(2, axis=1))
+        assert "outside the 2.42 to 25.1 s" in " ".join(told(RaoShip(**PLAIN | {"outside": outside})))
+
+
 def test_headings_far_apart_are_not_interpolated() -> None:
     head = np.array(PLAIN["heading"]) > 3.1
     cut: dict[str, Any] = {
@@ -172,6 +183,20 @@ def test_pitch_in_degrees_and_in_radians_moves_a_run_alike(tmp_path: Path) -> No
         runs.append(simulate(load(tmp_path / "run.toml"))["displacement"].values)
     assert abs(runs[0]).max() > 0.1
     np.testing.assert_allclose(runs[1], runs[0], atol=1e-9)
+
+
+def test_columns_may_be_headed_as_programs_do(tmp_path: Path) -> None:
+    write(tmp_path / "ship.csv")
+    text = (tmp_path / "ship.csv").read_text()
+    (tmp_path / "my.toml").write_text(OPERATION)
+    plain = load_operation(tmp_path / "my.toml")
+    for name in ("surge", "sway", "heave", "pitch"):
+        text = text.replace(f"{name} [", f"{name.title()}_Amp [").replace(f"{name} phase [", f"{name.upper()} Phase [")
+    (tmp_path / "ship.csv").write_text(text.replace("heading", "Wave heading").replace("period", "Wave Period"))
+    other = load_operation(tmp_path / "my.toml")
+    assert isinstance(other.vessel, RaoShip)
+    assert isinstance(plain.vessel, RaoShip)
+    assert other.vessel.pitch == plain.vessel.pitch
 
 
 def test_a_file_with_a_wrong_column_or_convention_is_refused(tmp_path: Path) -> None:

@@ -285,7 +285,13 @@ def _descents(found: Lowering) -> list[str]:
             f"{found.mean_tension[place].min():.4g} N",
         ))  # fmt: skip
     waiting = f"  where to wait: {found.waiting_depth:.4g} m, outside the resonance"
-    return [table(rows, right=[1, 2, 3]), waiting, f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}"]
+    notes = (f"  note: {notice}" for notice in found.notices())
+    return [
+        table(rows, right=[1, 2, 3]),
+        waiting,
+        *notes,
+        f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}",
+    ]
 
 
 def _thinned(count: int, most: int = 10) -> list[int]:

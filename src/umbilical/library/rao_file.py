@@ -17,25 +17,37 @@ def rao_lists(columns: Columns, key: str) -> tuple[dict[str, Any], list[Problem]
     Columns: ``heading [deg]``, ``period [s]`` or ``frequency [Hz]``, and of each motion ``heave [m/m]`` with
     ``heave phase [deg]``. Rotations are per metre, ``pitch [deg/m]``, or per wave slope, ``pitch [-]``.
     """
-    names = {name.lower().replace("_", " ").strip() for name in columns.names}
-    units = {name.lower(): columns.units[name] for name in columns.names}
-    per_slope = [name for name in MOTIONS[3:] if name in names and factor(_slope(units[name]), "1") is not None]
-    wanted = [Wanted("heading", ("heading", "direction"), "rad"),
-              Wanted("frequency", ("frequency", "period", "omega"), "rad/s")]  # fmt: skip
+    units = {name.lower().replace("_", " ").strip(): columns.units[name] for name in columns.names}
+    sizes = {motion: [units[name] for name in _sizes(motion) if name in units] for motion in MOTIONS}
+    turned = [name for name in MOTIONS[3:] if sizes[name]]
+    per_slope = [name for name in turned if factor(_slope(sizes[name][0]), "1") is not None]
+    scales = ("frequency", "period", "omega", "wave frequency", "wave period")
+    wanted = [
+        Wanted("heading", ("heading", "direction", "wave heading", "wave direction"), "rad"),
+        Wanted("frequency", scales, "rad/s"),
+    ]
     for name in MOTIONS:
-        needed = name == "heave" or name in names or f"{name} phase" in names
+        needed = bool(name == "heave" or sizes[name] or units.keys() & set(_phases(name)))
         unit = "1" if name in _TRANSLATIONS or name in per_slope else "rad/m"
-        wanted += [Wanted(name, (name, f"{name} amplitude"), unit, needed),
-                   Wanted(f"{name}_phase", (f"{name} phase",), "rad", needed)]  # fmt: skip
+        wanted += [Wanted(name, _sizes(name), unit, needed), Wanted(f"{name}_phase", _phases(name), "rad", needed)]
     found, problems = lists_of(columns, wanted, key)
     lists: dict[str, Any] = {name: values.tolist() for name, values in found.items()}
-    mixed = [name for name in MOTIONS[3:] if name in names and name not in per_slope]
+    mixed = [name for name in turned if name not in per_slope]
     if per_slope and mixed:
         told = f"{', '.join(per_slope)} per slope, {', '.join(mixed)} per metre"
         problems.append(Problem(key, told, "one of both", "rotations have one convention", "convert some"))
     if per_slope:
         lists["rotations"] = "per_slope"
     return lists, problems
+
+
+def _sizes(motion: str) -> tuple[str, ...]:
+    """How a column of a motion's amplitude may be headed."""
+    return motion, *(f"{motion} {word}" for word in ("amplitude", "amp", "rao", "magnitude"))
+
+
+def _phases(motion: str) -> tuple[str, ...]:
+    return f"{motion} phase", f"{motion} phase angle"
 
 
 def _slope(unit: str) -> str:

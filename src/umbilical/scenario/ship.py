@@ -56,6 +56,11 @@ class RaoShip(Record):
     rotations: Literal["per_metre", "per_slope"] = Field(
         default="per_metre", description="rotations in rad per metre of wave amplitude, or per wave slope"
     )
+    outside: Literal["refuse", "hold", "zero"] = Field(
+        default="refuse",
+        description="in waves shorter or longer than the table's: refuse seas of which they hold more than 1 % of the "
+        "energy, hold the motions of its last row, or take none",
+    )
     sheave_forward: float = _FORWARD
     sheave_port: float = _PORT
     sheave_up: float = _UP

@@ -15,7 +15,7 @@ import numpy as np
 
 from umbilical.result import ResultFaces
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import respond
+from umbilical.screening.response import respond, unknowns
 from umbilical.sea.spectrum import Spectrum
 
 BAND = (0.8, 1.25)
@@ -79,6 +79,10 @@ class Lowering(ResultFaces):
             f"{np.ptp(self.depth) / speed / 60.0:.3g} min; {where}"
         )
 
+    def notices(self) -> tuple[str, ...]:
+        """What the risk does not know."""
+        return tuple(unknowns(self.operation))
+
     def to_dict(self) -> dict[str, Any]:
         """As plain data."""
         return {
@@ -95,6 +99,7 @@ class Lowering(ResultFaces):
             "waiting_depth": self.waiting_depth,
             "axial_period": self.axial_period.tolist(),
             "mean_tension": self.mean_tension.tolist(),
+            "notices": self.notices(),
             "assumed": self.operation.assumed,
         }
 

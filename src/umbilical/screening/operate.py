@@ -16,12 +16,10 @@ import numpy as np
 from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.result import ResultFaces
-from umbilical.scenario.ship import RaoShip
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread
-from umbilical.sea.rao_checks import told
+from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread, unknowns
 from umbilical.sea.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -92,12 +90,7 @@ class Operability(ResultFaces):
 
     def notices(self) -> tuple[str, ...]:
         """What the limits do not know."""
-        said = [
-            "linearised: keep 10 % below a limit until a simulation confirms it",
-            "one wave direction at a time, no current; the cable stays straight and its length is held",
-        ]
-        if isinstance(self.operation.vessel, RaoShip):
-            said += told(self.operation.vessel)
+        said = unknowns(self.operation)
         if count := int(self.undamped.sum()):
             said.append(
                 f"{count} of {self.undamped.size} limits hang on the cable's own damping, which is 0 here: a loss "

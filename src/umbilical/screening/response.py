@@ -14,10 +14,11 @@ import numpy as np
 from umbilical.errors import ScenarioError
 from umbilical.relations.axial import axial_period, heave_transfer, linearised_damping, mean_drag
 from umbilical.relations.tension import hanging_of, net_gravity, tension_gain
+from umbilical.scenario.ship import RaoShip
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import HeaveCompensation, Operation
 from umbilical.sea.rao import RaoVessel, sheave_of, vessel_of
-from umbilical.sea.rao_checks import sea_problems
+from umbilical.sea.rao_checks import sea_problems, told
 from umbilical.sea.spectrum import Spectrum
 from umbilical.sea.vessel import motion_of_point
 
@@ -112,9 +113,19 @@ def check_vessel(operation: Operation, seas: Iterable[Spectrum], headings: Itera
     vessel = vessel_of(operation.vessel, operation.environment.gravity)
     if isinstance(vessel, RaoVessel):
         asked = [(sea, heading) for sea in seas for heading in headings]
-        found = {p.key: p for sea, heading in asked for p in sea_problems(vessel, sea, heading)}
+        found = {p.key: p for sea, heading in reversed(asked) for p in sea_problems(vessel, sea, heading)}
         if found:
             raise ScenarioError([*found.values()], operation.name)
+
+
+def unknowns(operation: Operation) -> list[str]:
+    """What screening does not know of an operation, in words."""
+    vessel = [*told(operation.vessel)] if isinstance(operation.vessel, RaoShip) else []
+    return [
+        "linearised: keep 10 % below a limit until a simulation confirms it",
+        "one wave direction at a time, no current; the cable stays straight and its length is held",
+        *vessel,
+    ]
 
 
 def residual(compensation: HeaveCompensation | None, omega: np.ndarray) -> np.ndarray:

@@ -26,24 +26,28 @@ class RaoVessel:
     """Complex amplitudes at midship on a grid of headings and frequencies.
 
     Between the points real and imaginary parts are linear, never amplitude and phase; outside the frequencies of the
-    table nothing moves. Where the table has headings of one side only, the ship's sides are taken to be alike.
+    table nothing moves, or, by ``outside = "hold"``, what moves at its ends. Where the table has headings of one side
+    only, the ship's sides are taken to be alike.
 
     Attributes:
         heading: increasing, rad, shape (h,).
         omega: increasing, rad/s, shape (w,).
         amplitudes: shape (6, h, w).
+        outside: of the frequencies, as :class:`RaoShip` has it.
     """
 
     heading: np.ndarray
     omega: np.ndarray
     amplitudes: np.ndarray
+    outside: str = "refuse"
 
     def motions(self, omega: np.ndarray, heading: float) -> Motions:
         """Motions at frequencies, rad/s, of any shape; see :class:`Vessel`."""
         low, high, share = self._between(heading)
         rows = (1.0 - share) * low + share * high
         asked = np.asarray(omega, dtype=float)
-        return Motions(*(np.interp(asked, self.omega, row, left=0.0, right=0.0) for row in rows))
+        ends: dict[str, Any] = {} if self.outside == "hold" else {"left": 0.0, "right": 0.0}
+        return Motions(*(np.interp(asked, self.omega, row, **ends) for row in rows))
 
     def knows(self, heading: float) -> bool:
         """Whether a heading is in the table, or between two that are at most :data:`WIDEST_STEP` apart."""
@@ -110,7 +114,7 @@ def _of_table(ship: RaoShip, gravity: float) -> RaoVessel:
     x, y, z = ship.motion_point
     roll, pitch, yaw = raw[3:]
     raw[:3] -= np.array([pitch * z - yaw * y, yaw * x - roll * z, roll * y - pitch * x])
-    return RaoVessel(headings, omega, raw)
+    return RaoVessel(headings, omega, raw, ship.outside)
 
 
 def grid_of(ship: RaoShip) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -61,6 +61,10 @@ def told(ship: RaoShip) -> Iterator[str]:
     missing = [name for name in MOTIONS if not getattr(ship, name)]
     if missing:
         yield f"the RAO table has no {', '.join(missing)}: taken as 0"
+    if ship.outside != "refuse":
+        shortest, longest = 2.0 * np.pi / max(ship.frequency), 2.0 * np.pi / min(ship.frequency)
+        taken = "those of its last row" if ship.outside == "hold" else "none"
+        yield f"outside the {shortest:.3g} to {longest:.3g} s of the RAO table the motions are {taken}, as declared"
     if not set(MOTIONS[:2]) - set(missing) and "pitch" not in missing:
         return
     if {"surge", "sway", "roll", "pitch"} <= set(missing):
@@ -76,12 +80,13 @@ def covered(vessel: RaoVessel, spectrum: Spectrum) -> float:
 def sea_problems(vessel: RaoVessel, spectrum: Spectrum, heading: float, key: str = "vessel") -> Iterator[Problem]:
     """Whether a table knows what it is asked: the frequencies of a sea, and its heading."""
     share = covered(vessel, spectrum)
-    if share < LEAST_COVERED:
+    if share < LEAST_COVERED and vessel.outside == "refuse":
         low, high = 2.0 * np.pi / vessel.omega[-1], 2.0 * np.pi / vessel.omega[0]
         yield Problem(
-            f"{key}.frequency", f"periods from {low:.4g} to {high:.4g} s hold {share:.4%} of the energy of a sea of Tp "
-            f"{spectrum.peak_period:.4g} s", f"{LEAST_COVERED:.0%} or more", "outside the table nothing moves",
-            "extend the table",
+            f"{key}.frequency", f"periods from {low:.4g} to {high:.4g} s hold {share:.1%} of the energy of a sea of Tp "
+            f"{spectrum.peak_period:.4g} s", f"{LEAST_COVERED:.0%} or more",
+            "on a short cable resonance makes small motions in short waves count",
+            f'extend the table, or say {key}.outside = "hold" (the motions of its last row) or "zero"',
         )  # fmt: skip
     if not vessel.knows(heading):
         known = ", ".join(f"{angle:.4g}" for angle in np.degrees(vessel.heading))
