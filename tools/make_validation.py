@@ -28,6 +28,7 @@ def text(found: Verification) -> str:
     note = "<!-- Written by tools/make_validation.py; edit its text in tools/make_validation.md. -->"
     body = TEXT.read_text(encoding="utf-8").replace("{headline}", found.headline).replace("{picture}", PICTURE)
     body = body.replace("{drag}", water_response.table())
+    body = body.replace("{beside}", beside(found))
     title, _, rest = body.replace("{tables}", tables(found)).partition("\n")
     return f"{title}\n\n{note}\n{rest}"
 
@@ -40,6 +41,16 @@ def tables(found: Verification) -> str:
         lines = ("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows)
         parts.append(f"### {family}\n\n" + "\n".join(lines))
     return "\n\n".join(parts)
+
+
+def beside(found: Verification) -> str:
+    """All numbers of the presets of the string on the rope."""
+    cases = [result for result in found.families["Rope"] if result.case.name.startswith("rope beside")]
+    lines = ["| preset | tip | midpoint |", "| --- | --- | --- |"]
+    for result in cases:
+        for tip, middle in zip(result.checks[::2], result.checks[1::2], strict=True):
+            lines.append(f"| {tip.quantity.partition(',')[0]} | {tip.error:.1e} | {middle.error:.1e} |")
+    return "\n".join(lines)
 
 
 def row(result: Result) -> tuple[str, ...]:

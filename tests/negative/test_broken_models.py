@@ -83,7 +83,14 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "a drive that leads": (broken_sea.drive_that_leads, ("sea, heave compensation",)),
     "gravity of another planet": (
         broken_rope.gravity_of_another_planet,
-        ("rope, elastic catenary", "rope, pendulum*", "rope, tow", "rope, free*", "rope, manufactured*"),
+        (
+            "rope, elastic catenary",
+            "rope, pendulum*",
+            "rope, tow",
+            "rope, free*",
+            "rope, manufactured*",
+            "rope beside*",
+        ),
     ),
     "half the body of the rope": (
         broken_rope.half_the_body,
@@ -91,13 +98,19 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     ),
     "four times the cable of the rope": (broken_rope.four_times_the_cable, ("rope, impact*",)),
     "half the cable of the rope": (broken_rope.half_the_cable, ("rope, front*",)),
-    "axes of the rope's body swapped": (broken_rope.axes_swapped, ("rope, tow", "rope, sheared*")),
+    "axes of the rope's body swapped": (broken_rope.axes_swapped, ("rope, tow", "rope, sheared*", "rope, turned*")),
     "a fifth more drag": (broken_rope.a_fifth_more_drag, ("rope, tow", "rope, sheared*")),
     "a winch that runs backwards": (
         broken_rope.winch_that_runs_backwards,
-        ("rope, paying out", "rope, hauling in", "rope, momentum*"),
+        ("rope, paying out", "rope, hauling in", "rope, momentum*", "rope, out and in"),
     ),
-    "half the cable's inertia of the rope": (broken_rope.half_the_cable, ("rope, crosscheck",)),
+    "half the cable's inertia of the rope": (broken_rope.half_the_cable, ("rope, crosscheck", "rope, frequencies*")),
+    "drag of the rope that grows with the diameter": (
+        broken_rope.drag_that_grows_with_the_diameter,
+        ("rope, diameter*",),
+    ),
+    "drag of the rope that drives": (broken_rope.drag_that_drives, ("rope, drag in*",)),
+    "drag of the rope that nobody ordered": (broken_rope.drag_that_nobody_ordered, ("rope, superposition",)),
     "a winch held over each step of the rope": (broken_rope.stages_at_the_start, ("rope, order in time",)),
     "waves that do not push a rope": (broken_rope.water_that_pushes_nothing, ("sea, string and rope*",)),
     "three times the heave": (broken_rope.three_times_the_heave, ("rope, irregular*",)),

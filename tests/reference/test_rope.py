@@ -5,14 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from tests.support.verdicts import assert_holds, each
-from umbilical.verify import rope, rope_manufactured, rope_waves
+from umbilical.library import load, preset_names
+from umbilical.verify import rope, rope_invariance, rope_manufactured, rope_pairs, rope_waves
 from umbilical.verify.cases import Case
 from umbilical.verify.references import manufactured_rope
 
 
-@each((*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES))
+@each((*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES, *rope_invariance.CASES, *rope_pairs.CASES))
 def test_case(case: Case) -> None:
     assert_holds(case)
+
+
+def test_every_preset_of_the_string_is_held_beside_the_rope() -> None:
+    named = {name for group in rope_pairs.PRESETS.values() for name in group}
+    assert named == {name for name in preset_names() if load(name).model == "string"}
 
 
 def test_the_manufactured_fields_are_derivatives_of_the_place() -> None:

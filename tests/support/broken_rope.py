@@ -41,6 +41,9 @@ axes_swapped = another_rope(
     lambda r: {"body_drag": np.ascontiguousarray(r.body_drag[::-1]), "normal_drag": 1.0 * r.normal_drag}
 )
 water_that_pushes_nothing = another_rope(lambda r: {"displaced": 0.0, "moved_water": 0.0 * r.moved_water})
+drag_that_grows_with_the_diameter = another_rope(lambda r: {"normal_drag": r.normal_drag * (1.0 + r.displaced)})
+drag_that_drives = another_rope(lambda r: {"normal_drag": -0.01 * r.normal_drag})
+drag_that_nobody_ordered = another_rope(lambda r: {"body_drag": r.body_drag + 300.0, "wet": True})
 a_fifth_more_drag = another_rope(lambda r: {"normal_drag": 1.2 * r.normal_drag})
 
 

@@ -23,7 +23,9 @@ from umbilical.verify import (
     observers,
     power_balance,
     rope,
+    rope_invariance,
     rope_manufactured,
+    rope_pairs,
     rope_waves,
     sea,
     sea_pairs,
@@ -49,7 +51,7 @@ FAMILIES: dict[str, tuple[Case, ...]] = {
     "Invariance": invariance.CASES,
     "Sea and heave": (*sea.CASES, *sea_pairs.CASES),
     "String in water": (*water.CASES, *water_pairs.CASES, *water_response.CASES),
-    "Rope": (*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES),
+    "Rope": (*rope.CASES, *rope_manufactured.CASES, *rope_waves.CASES, *rope_invariance.CASES, *rope_pairs.CASES),
 }
 """Every case, in the order of the table."""
 

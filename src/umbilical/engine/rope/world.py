@@ -142,7 +142,7 @@ def advance(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int,
         give_thrust(plant, state.motors, now.body_thrust)
     push(state, inputs, i)
     world = inputs.plane.world
-    stir(inputs.water, inputs.plane.orbits, world[i, START].wave_place, world[i, END].wave_place)
+    stir(inputs.water, state.stage, inputs.plane.orbits, world[i, START].wave_place, world[i, END].wave_place)
     advance_rope(plant.rope, state.rope, state.stage, inputs.loads[i], inputs.water, dt, plant.booked)
 
 

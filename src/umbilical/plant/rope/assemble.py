@@ -163,11 +163,11 @@ def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
 
 
 def lean(state: RopeState, slopes: np.ndarray) -> None:
-    """Add slopes y_x in the direction x, shape (5, n), and keep the stretch."""
+    """Add slopes y_x in the direction x, below 1, shape (5, n), and keep the stretch; x counts unstretched cable."""
     n, length = state.stretch.shape[1], float(state.outside[0].length)
     parts = [state.now[:, i * n : (i + 1) * n] / length for i in range(3)]
     size = np.sqrt(sum(part**2 for part in parts))
-    parts[0] = parts[0] + slopes * size / np.sqrt(1.0 + slopes**2)
+    parts[0] = parts[0] + slopes
     rest = np.maximum(size**2 - parts[0] ** 2 - parts[1] ** 2, 0.0)
     parts[2] = -np.sqrt(rest)
     state.now[:, : 3 * n] = length * np.concatenate(parts, axis=1)

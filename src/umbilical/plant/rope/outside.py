@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from umbilical.plant import signals
-from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps
+from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps, current_at
 from umbilical.plant.orbital import levels_of
 from umbilical.plant.rope.records import STAGES, RopeOutside, Water, make_water
 from umbilical.plant.seaway import sheave
@@ -51,7 +51,7 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
 
 
 def still_water(scenario: Scenario) -> Water:
-    """The water for the kernels: the current, which does not change in time, and the waves before they begin."""
+    """The water for the kernels as it is at the start: the current, and the waves before they begin."""
     water, waves = scenario.environment.water, levels_of(scenario.environment)
     if water is None or water.current is None:
         return make_water(CALM.heights, CALM.flow, waves)
@@ -60,7 +60,9 @@ def still_water(scenario: Scenario) -> Water:
     flow[:, :, 0] = current.speeds
     if current.speeds_across is not None:
         flow[:, :, 1] = current.speeds_across
-    return make_water(-np.array(current.depths), flow, waves)
+    found = make_water(-np.array(current.depths), flow, waves)
+    found.flow[:] *= current_at(scenario.environment, np.zeros(1))[0]
+    return found
 
 
 def forces_on_the_body(scenario: Scenario, t: ArrayLike, side: Side = "right") -> Any:
@@ -94,4 +96,5 @@ class RopeSampler:
         top = top_at(self._scenario.winch, t, side)
         out["length"], out["payout_speed"] = top.length, top.speed
         out["vessel_position"], out["vessel_speed"] = vessel_in_space(self._scenario, t, side)
+        out["current_factor"], out["current_rate"] = current_at(self._scenario.environment, t, side)
         out["body_force"] = forces_on_the_body(self._scenario, t, side)

@@ -74,6 +74,8 @@ class RopeOutside(Frame):
     payout_speed = real()
     vessel_position = vector(3)
     vessel_speed = vector(3)
+    current_factor = real()
+    current_rate = real()
     body_force = vector(3)
     body_thrust = vector(3)
 
@@ -93,19 +95,21 @@ class Water(NamedTuple):
     Attributes:
         heights: m, decreasing from the surface, shape (levels,); beyond them the outermost values hold.
         flow: velocity, m/s, and acceleration, m/s2, shape (stages, levels, 6).
+        profile: of the current, m/s, which a factor of time makes the flow, shape (levels, 3).
         waves: levels of the waves' orbital motion, below the sheave's mean height.
         orbit: velocity and rate there, along x, y and z, shape (stages, 2, 3, levels).
     """
 
     heights: np.ndarray
     flow: np.ndarray
+    profile: np.ndarray
     waves: Levels
     orbit: np.ndarray
 
 
 def make_water(heights: np.ndarray, flow: np.ndarray, waves: Levels = NONE) -> Water:
     """Water whose waves have not begun."""
-    return Water(heights, flow, waves, np.zeros((STAGES, 2, AXES, LEVELS)))
+    return Water(heights, flow, flow[0, :, :AXES].copy(), waves, np.zeros((STAGES, 2, AXES, LEVELS)))
 
 
 class RopeState(NamedTuple):

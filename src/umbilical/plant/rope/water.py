@@ -6,7 +6,7 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.orbital import at_level, find_level, look_at_waves
-from umbilical.plant.rope.records import AXES, Water
+from umbilical.plant.rope.records import AXES, STAGES, RopeOutside, Water
 
 
 @kernel
@@ -38,8 +38,14 @@ def flow_at(water: Water, stage: int, height: float, out: np.ndarray, at: int, s
 
 
 @kernel
-def stir(water: Water, orbits: np.ndarray, start: float, end: float) -> None:
-    """The waves' motion at the stages of a step from its places in the rows of a stretch (``plant/orbital.py``)."""
+def stir(water: Water, stage: RopeOutside, orbits: np.ndarray, start: float, end: float) -> None:
+    """Current and waves at the stages of a step, these from their places in the rows of ``plant/orbital.py``."""
+    for s in range(STAGES):
+        factor, rate = stage[s].current_factor, stage[s].current_rate
+        for k in range(water.heights.size):
+            for i in range(AXES):
+                water.flow[s, k, i] = factor * water.profile[k, i]
+                water.flow[s, k, AXES + i] = rate * water.profile[k, i]
     if water.waves.deepest > 0.0:
         look_at_waves(orbits, start, water.orbit[0])
         look_at_waves(orbits, end, water.orbit[1])
