@@ -102,8 +102,9 @@ BREAKS: dict[str, tuple[Break, tuple[str, ...]]] = {
     "a fifth more drag": (broken_rope.a_fifth_more_drag, ("rope, tow", "rope, sheared*")),
     "a winch that runs backwards": (
         broken_rope.winch_that_runs_backwards,
-        ("rope, paying out", "rope, hauling in", "rope, momentum*", "rope, out and in"),
+        ("rope, paying out", "rope, hauling in", "rope, momentum*"),
     ),
+    "a winch that slips": (broken_rope.winch_that_slips, ("rope, out and in",)),
     "half the cable's inertia of the rope": (broken_rope.half_the_cable, ("rope, crosscheck", "rope, frequencies*")),
     "drag of the rope that grows with the diameter": (
         broken_rope.drag_that_grows_with_the_diameter,

@@ -59,6 +59,18 @@ def winch_that_runs_backwards(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(model.RopeModel, "_outside", wrong)
 
 
+def winch_that_slips(patch: pytest.MonkeyPatch) -> None:
+    """A little more cable is out than the winch counts, the later the more."""
+    right = model.RopeModel._outside
+
+    def wrong(self: model.RopeModel, start: np.ndarray, dt: float) -> Any:
+        found = right(self, start, dt)
+        found["length"] *= 1.0 + 2e-5 * start[:, None]
+        return found
+
+    patch.setattr(model.RopeModel, "_outside", wrong)
+
+
 def stages_at_the_start(patch: pytest.MonkeyPatch) -> None:
     """Winch and vessel held over each step."""
     right = model.RopeModel._outside

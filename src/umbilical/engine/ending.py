@@ -11,6 +11,7 @@ import numpy as np
 from umbilical.analysis.energy import energy, relative_residual, residual, scale_of, tension_at_ends
 from umbilical.engine.recording import Log, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
+from umbilical.engine.schedule import Clock
 from umbilical.engine.setup import Setup
 from umbilical.plant.exogenous import STRETCHING
 from umbilical.plant.forces.table import IN_WATER, WORKS
@@ -35,6 +36,10 @@ class Ending(NamedTuple):
     reason: str
     updates: int
     time: float
+
+    def told(self) -> dict[str, Any]:
+        """What a run says of it."""
+        return {"status": self.status, "reason": self.reason, "end_time": self.time}
 
 
 def so_far(setup: Setup) -> tuple[int, float]:
@@ -62,30 +67,26 @@ def assemble_run(
     logged: Sequence[tuple[int, Mapping[str, float]]] = (),
 ) -> Run:
     """The run from what is recorded; ``logged``: values of a user's controller, by the update it logged them at."""
-    every, period = setup.record.every, setup.clock.period
-    samples = (ending.updates - 1) // every + 1
-    times = np.arange(samples) * every * period
-    if ending.status is Status.COMPLETED and setup.record.log.outside.size > samples:
-        samples, times = samples + 1, np.append(times, scenario.duration)
+    record, clock = setup.record, setup.clock
+    times = stored_times(scenario, ending, clock, record.every, record.log.outside.size)
     wet = setup.world.plant.forces.wet
-    named = channels(setup.record.log, samples, bool(scenario.motors), wet)
+    named = channels(record.log, times.size, bool(scenario.motors), wet)
     metrics = all_metrics(scenario, setup)
-    if samples:
-        metrics |= _balance(scenario, setup.record.log, named)
+    if times.size:
+        metrics |= _balance(scenario, record.log, named)
         notices += tuple(map(str, _of_the_grid(metrics)))
+    updates = np.minimum(np.arange(times.size) * record.every, clock.periods)
     return assemble(
-        scenario,
-        named,
-        time=times,
-        status=ending.status,
-        reason=ending.reason,
-        end_time=ending.time,
-        metrics=metrics,
-        timing=timing,
-        notices=notices,
-        sigma=positions(scenario.grid.elements),
-        logged=held_values(logged, np.minimum(np.arange(samples) * every, setup.clock.periods)),
-    )
+        scenario, named, time=times, **ending.told(), metrics=metrics, timing=timing, notices=notices,
+        sigma=positions(scenario.grid.elements), logged=held_values(logged, updates),
+    )  # fmt: skip
+
+
+def stored_times(scenario: Scenario, ending: Ending, clock: Clock, every: int, room: int) -> np.ndarray:
+    """Instants of the stored samples, s: one every so many updates, and the end of the run if there is room."""
+    times = np.arange((ending.updates - 1) // every + 1) * every * clock.period
+    ends = ending.status is Status.COMPLETED and room > times.size
+    return np.append(times, scenario.duration) if ends else times
 
 
 def _of_the_grid(metrics: Mapping[str, float]) -> Iterator[Notice]:
@@ -114,13 +115,18 @@ def held_values(logged: Sequence[tuple[int, Mapping[str, float]]], updates: np.n
 
 
 def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict[str, float]:
-    """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
+    """As :func:`closed`, with the energy."""
     motion = {name: named[name] for name in ("tip_velocity", "length")}
     works = np.stack([named[name] for name in _SUMMED if name in named], axis=1)
     outside = {name: log.outside[name][: works.shape[0]] for name in ("net_gravity", "sink_speed", *STRETCHING[:2])}
     if may_heave(scenario.environment):
         named["top_tension"], named["end_tension"] = tension_at_ends(scenario, length=named["length"], **outside)
     named["energy"] = energy(scenario, *inside(log, works.shape[0]), **motion, **outside)
+    return closed(named, works)
+
+
+def closed(named: dict[str, np.ndarray], works: np.ndarray) -> dict[str, float]:
+    """Adds the residual of the energy's balance to the channels; what it comes to over the run, as metrics."""
     named["energy_residual"] = residual(named["energy"], works)
     lost = float(np.abs(named["work_grid"][-1]))
     return {
@@ -132,12 +138,15 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
 def all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
     """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
     tally, tip = setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement)
-    metrics = base_metrics(tally, tip, slope_peak=float(tally.slopes.max()))
-    if not scenario.faults:
-        del metrics["tip_peak_after_fault"]
-    if np.isnan(metrics["effort_rms"]):
-        del metrics["effort_rms"]
-    return metrics | saturation(scenario, setup.record.tally)
+    return measured(scenario, base_metrics(tally, tip, slope_peak=float(tally.slopes.max()))) | saturation(
+        scenario, tally
+    )
+
+
+def measured(scenario: Scenario, metrics: dict[str, float]) -> dict[str, float]:
+    """The same without what there was nothing to measure of."""
+    absent = {"tip_peak_after_fault": not scenario.faults, "effort_rms": np.isnan(metrics["effort_rms"])}
+    return {name: value for name, value in metrics.items() if not absent.get(name)}
 
 
 def base_metrics(tally: Any, tip_end: float, **others: float) -> dict[str, float]:

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.analysis.energy import relative_residual, residual, scale_of
 from umbilical.compile import announce
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings
@@ -24,7 +23,7 @@ from umbilical.control.contract import (
     to_measurement,
 )
 from umbilical.engine import loop
-from umbilical.engine.ending import Ending, base_metrics, held_values
+from umbilical.engine.ending import Ending, base_metrics, closed, held_values, measured, stored_times
 from umbilical.engine.model import arrays_of
 from umbilical.engine.rope.loop import RopeControl, RopeRecord, observe_once, run_rope_steps
 from umbilical.engine.rope.recording import make_rope_log, make_rope_tally, rope_channels
@@ -220,49 +219,29 @@ class RopeModel:
         }
         if watch.snaps:
             found["largest_snap"] = watch.largest_snap
-        if not scenario.faults:
-            del found["tip_peak_after_fault"]
-        if np.isnan(found["effort_rms"]):
-            del found["effort_rms"]
-        return {name: float(value) for name, value in (found | saturation(scenario, tally)).items()}
+        found = measured(scenario, found) | saturation(scenario, tally)
+        return {name: float(value) for name, value in found.items()}
 
     def assemble(
         self, ending: Ending, notices: tuple[str, ...], timing: dict[str, float],
         logged: Sequence[tuple[int, Mapping[str, float]]] = (),
     ) -> Run:  # fmt: skip
-        every, scenario = self._record.every, self._scenario
-        samples = (ending.updates - 1) // every + 1
-        times = np.arange(samples) * every * self.clock.period
-        if ending.status is Status.COMPLETED and self._record.log.now.size > samples:
-            samples, times = samples + 1, np.append(times, scenario.duration)
-        named = rope_channels(self._record.log, samples, bool(scenario.motors), self._rope)
-        metrics = self.metrics()
-        if samples:
-            metrics |= self._balance(samples, named)
+        every, scenario, log = self.every, self._scenario, self._record.log
+        times = stored_times(scenario, ending, self.clock, every, log.now.size)
+        named, metrics = rope_channels(log, times.size, bool(scenario.motors), self._rope), self.metrics()
+        if times.size:
+            metrics |= self._balance(times.size, named)
+        updates = np.minimum(np.arange(times.size) * every, self.clock.periods)
         return assemble(
-            scenario,
-            named,
-            time=times,
-            status=ending.status,
-            reason=ending.reason,
-            end_time=ending.time,
-            metrics=metrics,
-            timing=timing,
-            notices=notices,
-            sigma=positions(section(scenario).elements),
-            logged=held_values(logged, np.minimum(np.arange(samples) * every, self.clock.periods)),
-        )
+            scenario, named, time=times, **ending.told(), metrics=metrics, timing=timing, notices=notices,
+            sigma=positions(section(scenario).elements), logged=held_values(logged, updates),
+        )  # fmt: skip
 
     def _balance(self, samples: int, named: dict[str, np.ndarray]) -> dict[str, float]:
-        """Adds the energy and its residual to the channels; what they come to over the run, as metrics."""
+        """As ``closed``, with the energy."""
         works = np.stack([named[name] for name in POWERS], axis=1)
         named["energy"] = energy(self._rope, self._record.log.nodes[:samples], named["body_velocity"], named["length"])
-        named["energy_residual"] = residual(named["energy"], works)
-        lost = float(np.abs(named["work_grid"][-1]))
-        return {
-            "energy_balance_residual": relative_residual(named["energy"], works),
-            "grid_loss": lost / scale_of(named["energy"], works) if lost else 0.0,
-        }
+        return closed(named, works)
 
 
 def directions(scenario: Scenario) -> np.ndarray:
