@@ -35,7 +35,7 @@ def test_slope_and_tension_are_told_before_the_first_step(umbilical, monkeypatch
     with pytest.raises(pytest.fail.Exception, match="told after it"):
         umbilical("run", "work-class-1000m-current")
     shown = umbilical("show", "work-class-1000m-current")
-    assert "before the first step: static slope up to 0.0337 at x/l = 0" in shown.out
+    assert "before the first step: static slope up to 0.0253 at x/l = 0" in shown.out
     assert umbilical("show", "observation-300m", "--json").document()["statics"] is None
 
 

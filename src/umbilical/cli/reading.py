@@ -103,8 +103,8 @@ def _show_scenario(source: str, as_json: bool) -> None:
     entries = [
         (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
     ]
-    parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, table(entries)]
-    parts += [f"before the first step: {found}"] if found else []
+    told = f"before the first step: {found}" if found else ""
+    parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, told, table(entries)]
     if scenario.assumed:
         parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
     say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))

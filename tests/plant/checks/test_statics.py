@@ -85,6 +85,18 @@ def test_a_slower_current_is_a_cure() -> None:
     assert of(slower).slope == pytest.approx(0.3, abs=0.002)
 
 
+@pytest.mark.parametrize(
+    "station",
+    [{}, {"station_gain": 0.1}, {"washout_time": 120.0}, {"station_gain": 0.1, "washout_time": 120.0, "station": 8.0}],
+)
+def test_the_plant_comes_to_rest_there_in_a_current(station: dict[str, float]) -> None:
+    options = {"station_gain": None, "washout_time": None} | station
+    changes: dict[str, Any] = {f"control.law.{name}": value for name, value in options.items()}
+    scenario = umbilical.load("work-class-1000m-current", changes | {"grid.elements": 16})
+    rest = np.abs(umbilical.simulate(scenario)["slope"].values[-1])
+    assert of(scenario).slope == pytest.approx(rest.max(), rel=0.01)
+
+
 def test_slope_and_tension_of_the_preset_in_a_current_are_told() -> None:
     found = statics(umbilical.load("work-class-1000m-current"))
     assert found is not None

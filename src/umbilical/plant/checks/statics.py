@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -106,7 +106,7 @@ def statics(scenario: Scenario) -> Statics | None:
 
     >>> import umbilical
     >>> [round(number, 3) for number in statics(umbilical.load("work-class-1000m-current"))]
-    [0.034, 0.0, 35000.0, 75456.44]
+    [0.025, 0.0, 35000.0, 75456.44]
     """
     s = scenario
     sampled = sampled_top(s.winch, s.environment, s.duration, s.cable, s.payload)
@@ -127,8 +127,8 @@ def steady_slope(
 
     Statics: ``T y_x = F + integral of f from x to l``, F the force that the thrusters leave on the ROV: all of it
     without a law; what the spring ``k_p`` leaves under PD; under the boundary law, which meets the force on the ROV,
-    what it takes to hold the ROV, and less as it creeps at ``-beta y_x``. The thrusters are taken to give what the law
-    asks for.
+    what it takes to hold the ROV, and less as it creeps at ``-beta y_x`` where no station holds it. The thrusters are
+    taken to give what the law asks for.
     """
     loaded = environment.cable_load or flows(environment)
     if not loaded and (not environment.payload_force or control.law.boundary_gains):
@@ -197,21 +197,27 @@ def _left_at_the_payload(
     With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N, ``pushed`` its drag at rest, N.
     """
     force = signals.evaluate(environment.payload_force, t) + pushed
-    if gains := control.law.boundary_gains:
-        return _creeping(t, carried, alone, gains[1] / pull)
+    if control.law.boundary_gains:
+        return _creeping(t, carried, alone, pull, control.law)
     spring = control.law.spring
     return (force - spring * carried) / (1.0 + spring * alone)
 
 
-def _creeping(t: np.ndarray, carried: np.ndarray, alone: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """What the boundary law leaves: it holds the ROV and lets it creep at ``-beta y_x``, by the implicit Euler method.
+def _creeping(t: np.ndarray, carried: np.ndarray, alone: np.ndarray, pull: np.ndarray, law: Any) -> np.ndarray:
+    """What the boundary law leaves: it holds the ROV and lets it creep, by the implicit Euler method.
 
-    The ROV is at ``carried + alone F``, starts at 0 and moves at ``-rate F``.
+    The ROV is at ``y = carried + alone F``, starts at 0 and moves at ``-beta (z - z_w) - kappa (y - y_r)``, z = F/T.
     """
+    beta, kappa, place = law.boundary_gains[1], law.station_gain or 0.0, law.station or 0.0
     left = -carried / alone
+    kept = left[0] / pull[0] if law.washout_time else 0.0
     for k in range(1, t.size):
-        place = carried[k - 1] + alone[k - 1] * left[k - 1]
-        left[k] = (place - carried[k]) / (alone[k] + (t[k] - t[k - 1]) * rate[k])
+        step = t[k] - t[k - 1]
+        washed = 1.0 + (step / law.washout_time if law.washout_time else 0.0)
+        creep, holds = step * beta / washed, 1.0 + step * kappa
+        before = carried[k - 1] + alone[k - 1] * left[k - 1] + creep * kept + step * kappa * place
+        left[k] = (before - holds * carried[k]) / (holds * alone[k] + creep / pull[k])
+        kept += (left[k] / pull[k] - kept) * (1.0 - 1.0 / washed)
     return left
 
 
