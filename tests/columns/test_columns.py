@@ -43,6 +43,8 @@ SPREADSHEETS = {
     "our own export": b"# a run\n# s,mm\nt,y\n0,1000.5\n0.1,2000\n",
     "spaces": b"t[s] y[mm]\n0.0   1000.5\n0.1  2e3\n",
     "dates": b"t,y [mm]\n2026-03-01T12:00:00,1000.5\n2026-03-01T12:00:00.1,2000\n",
+    "days first": b"t;y [mm]\n01.03.2026 9:00;1000,5\n01.03.2026 09:00:00,1;2000\n",
+    "words beside": "t [s];y [mm];Wetter\n0,0;1000,5;mäßig\n0,1;2000;\n".encode("cp1252"),
     "seconds since 1970": b"t [s],y [mm]\n1772366400,1000.5\n1772366400.1,2000\n",
 }
 
@@ -63,7 +65,9 @@ def test_what_spreadsheets_and_loggers_write_is_read(name: str) -> None:
         (b"t [s],y [m]\n0,1\n1,2,3\n", "line 3 has 3 cells"),
         (b"t [s];y [m]\n0,5;1,2\n0,6;1.234\n", "decimal commas"),
         (b"t [s],y [m]\n0,1\n1,two\n", "line 3, y: 'two'"),
-        (b"t,y [m]\n28.11.2026 10:00,1\n", "2026-03-01T12:00"),
+        (b"t,y [m]\n11/28/2026 10:00,1\n", "2026-03-01T12:00"),
+        (b"t,y [m]\n31.11.2026 10:00,1\n", "2026-03-01T12:00"),
+        (b"t [s],y [m],note\n0,1,calm\n1,2\n", "line 3 has 2 cells"),
         (b"a [s],a [m]\n0,1\n1,2\n", "two columns"),
         (b"PK\x03\x04\x00\x00", "can save it as CSV"),
         (b"\x89HDF\r\n\x1a\nbroken", "damaged"),
@@ -84,6 +88,7 @@ EVEN = np.arange(100) * 0.1
         ("t [s],y [kg]\n0,1\n1,2\n", "unit", "kg"),
         ("t,y [m]\n0,1\n1,2\n", "across_unit", "t [s]"),
         ("t [s],y [m],z [m]\n0,1,1\n1,2,1\n", "value", "y, z"),
+        ("t [s],roll [deg],z [m]\n0,1,1\n1,2,1\n", "value", 'value = "z" }'),
         ("t [s],y [m]\n0,1\n2,2\n1,3\n", "name", "line 4: 1 follows a later one"),
         ("t [s],y [m]\n0,1\n1,2\n1,2\n", "name", "line 4: 1 stands twice"),
         ("t [s],y [m]\n0,1\n1,\n2,3\n", "blanks", "line 3"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from datetime import UTC, datetime
+from itertools import compress
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from umbilical.errors import FileError
 
 _WITH_UNIT = re.compile(r"(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_DAY_FIRST = re.compile(r"(?P<day>\d{1,2})\.(?P<month>\d{1,2})\.(?P<year>\d{4})(?P<rest>([ T]\d{1,2}:.*)?)")
 _BLANK = ("", "nan", "na", "n/a", "null", "#n/a", "-")
 _MARKS = "'\""
 Parsed = tuple[tuple[str, ...], dict[str, str], dict[str, np.ndarray], frozenset[str], np.ndarray]
@@ -29,7 +31,7 @@ def decode(content: bytes, origin: str) -> str:
 
 
 def parse(text: str, origin: str) -> Parsed:
-    """Names, units, values, names of columns that are dates, and line numbers.
+    """Names, units, values, names of columns that are dates, and line numbers; columns of words are left out.
 
     Raises:
         FileError: there is no header or no row, a row has another number of cells, or a cell is no number.
@@ -55,9 +57,30 @@ def parse(text: str, origin: str) -> Parsed:
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise FileError(f"{origin}: two columns are called {twice!r}")
-    values, dates = _values(names, body, origin)
-    units = {name: "s" if name in dates else _bare(unit) for name, unit in units.items()}
+    _check_lengths(names, body, origin)
+    numbers = _of_numbers([row for _, row in body])
+    names = tuple(compress(names, numbers))
+    values, dates = _values(names, [(line, [*compress(row, numbers)]) for line, row in body], origin)
+    units = {name: "s" if name in dates else _bare(units[name]) for name in names}
     return names, units, values, dates, np.array([line for line, _ in body])
+
+
+def _check_lengths(names: tuple[str, ...], body: list[tuple[int, list[str]]], origin: str) -> None:
+    for line, row in body:
+        if len(row) != len(names):
+            raise FileError(
+                f"{origin}: line {line} has {len(row)} cells and the header {len(names)}; decimal commas need "
+                "semicolons or tabulators between columns"
+            )
+
+
+def _of_numbers(rows: list[list[str]]) -> list[bool]:
+    """Which columns hold numbers or dates, or nothing; all of them, if less than two would be left."""
+    kept = []
+    for column in zip(*rows, strict=True):
+        cells = [cell for cell in column if cell.lower() not in _BLANK]
+        kept.append(not cells or any(_is_number(cell) or _date(cell) is not None for cell in cells))
+    return kept if sum(kept) >= 2 else [True] * len(kept)
 
 
 def _rows(text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
@@ -127,11 +150,6 @@ def _values(
 ) -> tuple[dict[str, np.ndarray], frozenset[str]]:
     values, dates = np.full((len(names), len(body)), np.nan), set[str]()
     for k, (line, row) in enumerate(body):
-        if len(row) != len(names):
-            raise FileError(
-                f"{origin}: line {line} has {len(row)} cells and the header {len(names)}; decimal commas need "
-                "semicolons or tabulators between columns"
-            )
         for j, cell in enumerate(row):
             if _is_number(cell):
                 values[j, k] = float(cell)
@@ -143,12 +161,17 @@ def _values(
 
 def _instant(cell: str, where: str) -> float:
     if (found := _date(cell)) is None:
-        raise FileError(f"{where}: {cell!r} is neither a number nor a date such as 2026-03-01T12:00:00.5")
+        raise FileError(
+            f"{where}: {cell!r} is neither a number nor a date such as 2026-03-01T12:00:00.5 or 01.03.2026 12:00"
+        )
     return found
 
 
 def _date(cell: str) -> float | None:
-    """Seconds since 1970 of a date and time in ISO 8601; without a zone it is taken as UTC."""
+    """Seconds since 1970 of a date and time: ISO 8601, or 31.12.2026 23:59; without a zone it is taken as UTC."""
+    if turned := _DAY_FIRST.fullmatch(cell):
+        hours = re.sub(r"^[ T](?=\d:)", " 0", turned["rest"])
+        cell = f"{turned['year']}-{int(turned['month']):02d}-{int(turned['day']):02d}{hours}"
     try:
         found = datetime.fromisoformat(cell)
     except ValueError:

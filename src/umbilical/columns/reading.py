@@ -48,7 +48,7 @@ def read_columns(path: Path, content: bytes | None = None) -> Columns:
         content: its bytes, where they are read already.
 
     Raises:
-        FileError: it is missing, empty, damaged, or a cell holds neither a number nor a date in ISO 8601.
+        FileError: it is missing, empty, damaged, or a cell holds neither a number nor a date.
     """
     data = files.read(path) if content is None else content
     if data.startswith(_NETCDF):

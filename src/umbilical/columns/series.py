@@ -104,7 +104,10 @@ def _chosen(columns: Columns, choice: Choice, key: str) -> tuple[str, str] | Pro
             there = ", ".join(columns.names)
             found = f'"{name}"' if name else "missing"
             reason = "the columns of a file are taken by name" if name else "the file has several columns"
-            return Problem(f"{key}.{asked}", found, f"one of {there}", reason, f'e.g. {asked} = "{columns.names[-1]}"')
+            fitting = [other for other in others if factor(columns.units[other], choice.wanted) is not None]
+            example = columns.names[0] if asked == "across" else (fitting or others or [across])[0]
+            cure = f'e.g. file = {{ name = "{columns.origin}", {asked} = "{example}" }}'
+            return Problem(f"{key}.{asked}", found, f"one of {there}", reason, cure)
     return across, str(value)
 
 

@@ -122,7 +122,9 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
         columns = read_columns(Path(source.name), content)
     except FileError as error:
         there = (folder / source.name).exists()
-        cure = "save it as CSV or NetCDF" if there else "names are relative to the folder of the scenario"
+        cure = (
+            "correct it, or save it as CSV or NetCDF" if there else "names are relative to the folder of the scenario"
+        )
         yield Problem(f"{key}.name", f'"{source.name}"', "a CSV or NetCDF file", str(error), cure)
         return
     if filled.reader == "rao":
