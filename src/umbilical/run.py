@@ -59,6 +59,9 @@ def dimensions(name: str) -> tuple[str, ...]:
 
 
 _LOGGED = "controller_"
+SNAPS = "snaps"
+"""Attribute with the snaps of a rope, as JSON: pairs of an instant, s, and a peak, N."""
+_SHOWN_SNAPS = 5
 _OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
 
 
@@ -167,6 +170,11 @@ class Run:
         names = [str(name).removeprefix(METRIC) for name in self._kept.data_vars if str(name).startswith(METRIC)]
         return {name: float(self._kept[METRIC + name]) for name in names if name in METRICS}
 
+    @property
+    def snaps(self) -> np.ndarray:
+        """When a rope snapped taut, s, and the peak of its tension, N, of the first thousand: shape (snaps, 2)."""
+        return np.array(json.loads(self._kept.attrs.get(SNAPS, "[]")), dtype=float).reshape(-1, 2)
+
     def _cut(self) -> tuple[str, ...]:
         """What must be said of a part of a run: its metrics are not the part's own."""
         if isinstance(self._kept, Arrays):
@@ -197,7 +205,14 @@ class Run:
         rows = self._rows()
         widths = [max((len(row[k]) for row in rows), default=0) for k in range(3)]
         lines = [f"  {n:<{widths[0]}}  {v:>{widths[1]}} {u:<{widths[2]}}  {meaning}" for n, v, u, meaning in rows]
-        return "\n".join([self._headline(), *lines, *(f"  note: {notice}" for notice in self.notices)])
+        notes = [f"  note: {notice}" for notice in self.notices]
+        return "\n".join([self._headline(), *lines, *self._largest_snaps(), *notes])
+
+    def _largest_snaps(self) -> tuple[str, ...]:
+        """When the largest snaps were."""
+        largest = sorted(self.snaps.tolist(), key=lambda snap: -snap[1])[:_SHOWN_SNAPS]
+        told = ", ".join(f"{peak:.4g} N at {time:.4g} s" for time, peak in largest)
+        return (f"  largest snaps: {told}",) * bool(largest)
 
     def to_dict(self) -> dict[str, Any]:
         """How it ended, its metrics and what is to be known of it, as plain data."""
@@ -208,6 +223,7 @@ class Run:
             "scenario": self.scenario.name,
             "scenario_hash": self.scenario.hash,
             "metrics": self.metrics,
+            **({"snaps": self.snaps.tolist()} if self.snaps.size else {}),
             "timing": dict(self.timing),
             "notices": self.notices,
             "assumed": self.scenario.assumed,
@@ -266,6 +282,7 @@ def assemble(
     notices: Sequence[str] = (),
     sigma: np.ndarray | None = None,
     logged: Mapping[str, np.ndarray] | None = None,
+    snaps: np.ndarray | None = None,
 ) -> Run:
     """Put names, units and the scenario to the arrays of a simulation.
 
@@ -282,6 +299,7 @@ def assemble(
         notices: what the user should know.
         sigma: positions of the nodes, x/l, where they are not evenly spaced.
         logged: what a user's controller logged, by its names, shape (time,).
+        snaps: as :attr:`Run.snaps`; None where there can be none.
 
     Raises:
         KeyError: a channel or metric has no words in :mod:`umbilical.quantities`.
@@ -296,6 +314,8 @@ def assemble(
         "end_time": float(end_time),
         "notices": json.dumps(list(notices), ensure_ascii=False),
     }
+    if snaps is not None:
+        ending[SNAPS] = json.dumps(snaps.tolist())
     arrays = Arrays(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
     return Run(arrays, scenario, timing)
 
@@ -372,11 +392,20 @@ _VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba"
 _ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
 
 
+def _pairs(value: Any) -> str:
+    """Rule of the snaps: JSON of instants with their peaks."""
+    if wrong := json_of(list, list)(value):
+        return wrong
+    good = all(len(pair) == 2 and all(type(part) in (int, float) for part in pair) for pair in json.loads(value))
+    return "" if good else "must be pairs of an instant and a tension"
+
+
 def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
     if (kind := kind_of(data)) != "run":
         raise FileError(f"{path}: this is the result of a {kind}, not of a run")
-    check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number}, "time", str(path))
+    snaps = {SNAPS: _pairs} if SNAPS in data.attrs else {}
+    check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number} | snaps, "time", str(path))
     refuse(filter(None, _wrong_arrays(data)), str(path))
     return data
 

@@ -18,15 +18,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Kind = Literal[
-    "overview", "tip", "positions", "cable", "winch", "motors", "observers", "energy", "shape", "tension",
-    "distribution", "comparison", "map", "sensitivity",
+    "overview", "tip", "positions", "cable", "winch", "motors", "observers", "energy", "shape", "tension", "snaps",
+    "watch", "distribution", "comparison", "map", "sensitivity",
 ]  # fmt: skip
 
 
 def plot(
     file: Annotated[Path, Argument(help="A .nc result, of a run or of a study.")],
     kind: Annotated[
-        Kind, Option("--kind", help="What to draw; shape and tension of a rope, the last four of studies.")
+        Kind, Option("--kind", help="What to draw; shape, tension, snaps, watch of a rope; the last four of studies.")
     ] = "overview",
     metric: Annotated[str | None, Option("--metric", metavar="NAME", help="Of a study: what to draw it of.")] = None,
     x: Annotated[str | None, Option("--x", metavar="DRAW", help="Of a map: what is drawn, to the right.")] = None,

@@ -20,7 +20,7 @@ from umbilical.plots.motors import plot_motors
 from umbilical.plots.observers import plot_observers
 from umbilical.plots.operability import plot_lowering, plot_operability
 from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
-from umbilical.plots.rope import plot_shape, plot_tension
+from umbilical.plots.rope import plot_shape, plot_tension, plot_tensions, plot_watch
 from umbilical.plots.snap import plot_snaps
 from umbilical.plots.study import (
     STUDY_PLOTS,
@@ -47,7 +47,7 @@ PLOTS = {
 }
 """Every picture by the name the command line gives it; each takes a run and returns an Axes or a Figure."""
 
-ROPE_PLOTS = {"shape": plot_shape, "tension": plot_tension}
+ROPE_PLOTS = {"shape": plot_shape, "tension": plot_tension, "snaps": plot_tensions, "watch": plot_watch}
 """Likewise what only a run of the rope has."""
 
 __all__ = [
@@ -77,8 +77,10 @@ __all__ = [
     "plot_snaps",
     "plot_study",
     "plot_tension",
+    "plot_tensions",
     "plot_tip",
     "plot_tuning",
+    "plot_watch",
     "plot_weather",
     "plot_winch",
     "save_figure",

@@ -11,6 +11,7 @@ from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import check_drawable, new_figure
 from umbilical.plots.motors import adapted, plot_allocation, plot_motors
 from umbilical.plots.observers import estimated, plot_observers
+from umbilical.plots.rope import plot_tensions
 from umbilical.plots.tip import plot_thrust, plot_tip
 from umbilical.plots.winch import moves, plot_winch
 
@@ -34,6 +35,7 @@ def plot_overview(run: Run) -> Figure:
     motors = driven(run)
     panels: list[Panel] = [plot_tip, plot_cable, plot_positions]
     panels += [plot_winch] if moves(run) else []
+    panels += [plot_tensions] if "position" in run.data else []
     panels += [plot_thrust] if bool(run["thrust"].any()) else []
     panels += [partial(plot_motors, channel=name) for name in ("motor_speed", "motor_voltage") if motors]
     panels += [

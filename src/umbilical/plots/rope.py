@@ -1,4 +1,4 @@
-"""The rope: its shape in two views, and the tension along it."""
+"""The rope: its shape in two views, the tension along it and over time with its snaps, the circle it keeps watch in."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import axes_for, axis_label, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, draw, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,8 +60,53 @@ def plot_tension(run: Run, *, ax: Axes | None = None) -> Axes:
     ax.set_xlabel(axis_label(pull))
     ax.set_ylabel(r"$\sigma = x/l$, 0 at the vessel")
     ax.set_ylim(1.0, 0.0)
-    ax.set_title(f"{run.scenario.name}: tension along the cable", loc="left")
+    ax.set_xlim(0.0, None)
+    slack, share = float(run["slack_length"].max()), run.metrics["slack_share"]
+    told = f"slack on up to {slack:.3g} m, in {100.0 * share:.3g} % of the time" if share else "never slack"
+    ax.set_title(f"{run.scenario.name}: tension along the cable, {told}", loc="left", fontsize=10)
     ax.legend()
+    return ax
+
+
+def plot_tensions(run: Run, *, ax: Axes | None = None) -> Axes:
+    """Tension at the vessel, at the body and the smallest along the cable over time; slack is shaded, snaps are marked.
+
+    Raises:
+        ValueError: the run is of a string.
+    """
+    _of_a_rope(run)
+    ax = axes_for(run, ax)
+    draw(ax, run["top_tension"], "at the vessel", colour=0)
+    draw(ax, run["end_tension"], "at the body", colour=1)
+    draw(ax, run["lowest_tension"], "smallest along the cable", colour=6, dashed=True)
+    time, slack = run["time"].values, run["slack_length"].values > 0.0
+    if slack.any():
+        where = {"where": slack.tolist(), "transform": ax.get_xaxis_transform(), "label": "slack somewhere"}
+        ax.fill_between(time, 0.0, 1.0, color=QUIET, alpha=0.25, linewidth=0.0, **where)
+    if (snaps := run.snaps).size:
+        ax.plot(snaps[:, 0], snaps[:, 1], "v", color="black", markersize=5, label=f"{snaps.shape[0]} snaps")
+    return finish(ax, run, "tension", axis_label(run["tension"]))
+
+
+def plot_watch(run: Run, *, ax: Axes | None = None) -> Axes:
+    """Path of the body from above, m, and the circle about its start that it stays within.
+
+    Raises:
+        ValueError: the run is of a string.
+    """
+    _of_a_rope(run)
+    ax = axes_for(run, ax)
+    x, y = run["body_position"].values[:, 0], run["body_position"].values[:, 1]
+    radius, round_ = run.metrics["watch_radius"], np.linspace(0.0, 2.0 * np.pi, 181)
+    ax.plot(x, y, color=COLOURS[0], linewidth=1.0, label="body")
+    ax.plot(x[0], y[0], "o", color=COLOURS[2], label="start")
+    ax.plot(x[-1], y[-1], "s", color=COLOURS[1], label="end")
+    name = f"watch circle, {radius:.3g} m"
+    ax.plot(x[0] + radius * np.cos(round_), y[0] + radius * np.sin(round_), "--", color=QUIET, label=name)
+    ax.set(xlabel="$x$ [m]", ylabel="$y$ [m]", aspect="equal")
+    ax.set_title(f"{run.scenario.name}: the body from above", loc="left")
+    ax.grid(visible=True, alpha=0.3)
+    ax.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
     return ax
 
 

@@ -26,7 +26,7 @@ from umbilical.engine import loop
 from umbilical.engine.ending import Ending, base_metrics, closed, held_values, measured, stored_times
 from umbilical.engine.model import arrays_of
 from umbilical.engine.rope.loop import RopeControl, RopeRecord, observe_once, run_rope_steps
-from umbilical.engine.rope.recording import make_rope_log, make_rope_tally, rope_channels
+from umbilical.engine.rope.recording import MOST_SNAPS, make_rope_log, make_rope_tally, rope_channels
 from umbilical.engine.rope.world import RopeNow, RopePlant, RopePlantState, RopeWorld, Side
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Stretch, make_clock
@@ -235,6 +235,7 @@ class RopeModel:
         return assemble(
             scenario, named, time=times, **ending.told(), metrics=metrics, timing=timing, notices=notices,
             sigma=positions(section(scenario).elements), logged=held_values(logged, updates),
+            snaps=self._record.tally.snaps[: min(int(self._record.tally.watch[0].snaps), MOST_SNAPS)],
         )  # fmt: skip
 
     def _balance(self, samples: int, named: dict[str, np.ndarray]) -> dict[str, float]:
