@@ -52,12 +52,17 @@ def test_a_scatter_table_and_a_hindcast_of_spreadsheets(tmp_path: Path) -> None:
     (tmp_path / "scatter.csv").write_text("Hs [m];Tz [s];count\n0,5;5,0;30\n1,5;6,0;60\n2,5;7,0;10\n")
     found = read_seas(tmp_path / "scatter.csv")
     assert found.weight.tolist() == pytest.approx([0.3, 0.6, 0.1])
-    assert found.period[0] == pytest.approx(5.0 / 0.77741, rel=1e-4)
+    assert found.period[0] == pytest.approx(5.0 / 0.777399208, rel=1e-8)
     assert found.time is None
     (tmp_path / "hindcast.csv").write_text("time,hs [m],tp [s]\n2026-01-01T00:00,1,8\n2026-01-01T03:00,2,9\n")
     found = read_seas(tmp_path / "hindcast.csv")
     assert found.time is not None
     assert found.time.tolist() == [0.0, 3.0 * HOUR]
+    german = "Datum;Hs [m];Tp [s];Wetter\r\n31.12.2025 21:00;1,0;8,5;Böen\r\n01.01.2026 00:00;2,5;9,0;\r\n"
+    (tmp_path / "hindcast.csv").write_bytes(german.encode("cp1252"))
+    found = read_seas(tmp_path / "hindcast.csv")
+    assert found.time is not None
+    assert (found.height.tolist(), found.time.tolist()) == ([1.0, 2.5], [0.0, 3.0 * HOUR])
 
 
 @pytest.mark.parametrize(

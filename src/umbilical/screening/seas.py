@@ -67,25 +67,29 @@ def read_seas(path: str | Path, peakedness: float = 3.3) -> Seas:
 
 
 def _lists(columns: Columns, key: str) -> tuple[dict[str, np.ndarray], Any, list[Problem]]:
-    names = {name.lower().replace("_", " ").strip() for name in columns.names}
+    names = {_plain(name) for name in columns.names}
     kinds: list[Any] = [kind for kind, known in _PERIODS.items() if names & set(known)]
     kind: Any = kinds[0] if kinds else "peak"  # of several the peak period, which needs no shape
     wanted = [Wanted("height", _HEIGHTS, "m"), Wanted("period", _PERIODS[kind], "s")]
     weighted = [name for name in _WEIGHTS if name in names]
-    timed = [name for name in _TIMES if name in names]
+    timed = [name for name in _TIMES if name in names] or [_plain(name) for name in sorted(columns.dates)]
     if weighted:
-        unit = columns.units[next(n for n in columns.names if n.lower().replace("_", " ").strip() == weighted[0])]
+        unit = columns.units[next(n for n in columns.names if _plain(n) == weighted[0])]
         wanted += [] if unit == "" else [Wanted("weight", (weighted[0],), "1")]
     wanted += [Wanted("time", (timed[0],), "s")] if timed and not weighted else []
     lists, problems = lists_of(columns, wanted, key)
     if weighted and "weight" not in lists:  # counts have no unit
-        name = next(n for n in columns.names if n.lower().replace("_", " ").strip() == weighted[0])
+        name = next(n for n in columns.names if _plain(n) == weighted[0])
         lists["weight"] = columns.values[name]
     if not weighted and not timed:
         reason = "a scatter table says how often each sea occurs, a hindcast when"
-        bound = f"one of {', '.join(_WEIGHTS)}, or {', '.join(_TIMES)}"
+        bound = f"one of {', '.join(_WEIGHTS)}, or {', '.join(_TIMES)}, or a column of dates"
         problems.append(Problem(f"{key}.count", "missing", bound, reason, "name that column so"))
     return lists, kind, problems
+
+
+def _plain(name: str) -> str:
+    return name.lower().replace("_", " ").strip()
 
 
 def _checked(
