@@ -67,6 +67,7 @@ REFUSED: list[tuple[dict[str, Any], str, str]] = [
     ({"environment.water.current.speeds": [9.0, 0.1]}, "environment.water.current.speeds", "a knot is 0.514"),
     ({"environment.water.current.upwards": [0.1, 0.1]}, "environment.water.current.upwards", "no such key"),
     ({**WEAK, "duration": 60.0}, "environment", "a current below 0.658 times this one"),
+    ({**WEAK, "duration": 1.0, "initial": {"shape": "equilibrium"}}, "environment", "a static slope of 0.69"),
     # what moves: tension above 0, S above rho |v|
     ({"environment.vessel_heave": [sine(5.0, 1.0)]}, "environment.vessel_heave", 'model = "rope"'),
     ({"environment.vessel_heave": [{"kind": "step", "value": 1.0, "time": 1.0}]},

@@ -63,7 +63,7 @@ def static_slope(
         return
     where = f"a static slope of {found.slope:.3g} at x/l = {found.sigma:.2g}, under the loads that last"
     share = _STEEPEST / found.slope
-    if found.reached:
+    if found.reached or initial.shape == "equilibrium":  # where it starts
         eased = f"loads below {share:.3g} times these" if environment.cable_load or environment.payload_force else ""
         slower = f"a current below {np.sqrt(share):.3g} times this one" if flows(environment) else ""
         yield Problem(
