@@ -59,6 +59,14 @@ def json_of(kind: type, *items: type) -> Rule:
     return wrong
 
 
+def pairs(value: Any) -> str:
+    """Rule of a JSON text of pairs of numbers, such as instants with their peaks."""
+    if wrong := json_of(list, list)(value):
+        return wrong
+    good = all(len(pair) == 2 and all(type(part) in (int, float) for part in pair) for pair in json.loads(value))
+    return "" if good else "must be JSON of pairs of numbers"
+
+
 def kind_of(data: xarray.Dataset) -> str:
     """What a result is of: a run, a study, or neither."""
     kind = data.attrs.get("kind", "run")

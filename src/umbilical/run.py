@@ -24,15 +24,17 @@ from umbilical.contents import (
     json_of,
     kind_of,
     one_of,
+    pairs,
     refuse,
     stated_sizes,
     text,
     whole_number,
     wrong_array,
 )
+from umbilical.coordinates import attributes, coordinates, dimensions
 from umbilical.errors import FileError, OutputError, ScenarioError
 from umbilical.formats import EXPORTS, RESULT_SCHEMA, from_netcdf, to_netcdf
-from umbilical.quantities import CHANNELS, METRICS, PARAMETERS, Quantity
+from umbilical.quantities import CHANNELS, METRICS
 from umbilical.stored_numbers import METRIC, wrong_times, wrong_values
 
 if TYPE_CHECKING:
@@ -44,19 +46,6 @@ CONVENTION = (
     "x runs along the cable from the vessel (0) to the ROV (length), y is transverse, "
     "paying out is positive; SI units, angles in radians"
 )
-
-SECOND_DIMENSION = {name: q.over for name, q in CHANNELS.items() if q.over}
-"""What a channel depends on besides time; a channel not named here depends on time alone."""
-
-
-def dimensions(name: str) -> tuple[str, ...]:
-    """Dimensions of a channel, time first.
-
-    >>> dimensions("position"), dimensions("length")
-    (('time', 'axis', 'sigma'), ('time',))
-    """
-    return ("time", *SECOND_DIMENSION.get(name, "").split())
-
 
 _LOGGED = "controller_"
 SNAPS = "snaps"
@@ -288,8 +277,8 @@ def assemble(
 
     Args:
         scenario: what was simulated.
-        channels: arrays by name, each (time,) or (time, k) as :data:`SECOND_DIMENSION` says; the names, their units
-            and meanings are those of :data:`umbilical.quantities.CHANNELS`.
+        channels: arrays by name, over what :func:`~umbilical.coordinates.dimensions` says; the names, their units and
+            meanings are those of :data:`umbilical.quantities.CHANNELS`.
         time: instants of the samples, s, shape (time,).
         status: how it ended.
         reason: why, in words; may be empty.
@@ -307,7 +296,7 @@ def assemble(
     """
     variables = {name: _channel(name, values) for name, values in channels.items()}
     variables |= {_LOGGED + name: (("time",), values, _OF_CONTROLLER) for name, values in (logged or {}).items()}
-    variables |= {METRIC + name: ((), float(value), _attributes(METRICS[name])) for name, value in metrics.items()}
+    variables |= {METRIC + name: ((), float(value), attributes(METRICS[name])) for name, value in metrics.items()}
     ending = {
         "status": status.name,
         "reason": reason,
@@ -316,36 +305,12 @@ def assemble(
     }
     if snaps is not None:
         ending[SNAPS] = json.dumps(snaps.tolist())
-    arrays = Arrays(variables, _coordinates(channels, time, sigma), _identity(scenario) | ending)
+    arrays = Arrays(variables, coordinates(channels, time, sigma), _identity(scenario) | ending)
     return Run(arrays, scenario, timing)
 
 
 def _channel(name: str, values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray, dict[str, str]]:
-    return dimensions(name), np.asarray(values, dtype=float), _attributes(CHANNELS[name])
-
-
-def _attributes(word: Quantity) -> dict[str, str]:
-    return {"units": word.unit, "long_name": word.meaning, "symbol": word.symbol}
-
-
-def _coordinates(channels: Mapping[str, np.ndarray], time: np.ndarray, sigma: np.ndarray | None) -> dict[str, tuple]:
-    """Values of every dimension that occurs: instants, positions, numbers of the motors from 1, of kappa from 0."""
-    sizes = {
-        dim: size for name, values in channels.items() for dim, size in zip(dimensions(name), values.shape, strict=True)
-    }
-    found: dict[str, tuple] = {"time": ("time", time, {"units": "s", "long_name": "time", "symbol": "t"})}
-    if "sigma" in sizes:
-        nodes = np.linspace(0.0, 1.0, sizes["sigma"]) if sigma is None else sigma
-        comment = {"comment": "distance from the vessel x = sigma * length"}
-        found["sigma"] = ("sigma", nodes, _attributes(PARAMETERS["sigma"]) | comment)
-    if "motor" in sizes:
-        found["motor"] = ("motor", np.arange(1, sizes["motor"] + 1), _attributes(Quantity("1", "i", "motor")))
-    if "axis" in sizes:
-        axes = {"comment": "0: x, along the string's displacement; 1: y, across it; 2: z, up"}
-        found["axis"] = ("axis", np.arange(sizes["axis"]), _attributes(Quantity("1", "", "axis")) | axes)
-    if "kappa_index" in sizes:
-        found["kappa_index"] = ("kappa_index", np.arange(sizes["kappa_index"]), _attributes(Quantity("1", "", "entry")))
-    return found
+    return dimensions(name), np.asarray(values, dtype=float), attributes(CHANNELS[name])
 
 
 def _identity(scenario: Scenario) -> dict[str, str | int]:
@@ -392,19 +357,11 @@ _VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba"
 _ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
 
 
-def _pairs(value: Any) -> str:
-    """Rule of the snaps: JSON of instants with their peaks."""
-    if wrong := json_of(list, list)(value):
-        return wrong
-    good = all(len(pair) == 2 and all(type(part) in (int, float) for part in pair) for pair in json.loads(value))
-    return "" if good else "must be pairs of an instant and a tension"
-
-
 def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
     if (kind := kind_of(data)) != "run":
         raise FileError(f"{path}: this is the result of a {kind}, not of a run")
-    snaps = {SNAPS: _pairs} if SNAPS in data.attrs else {}
+    snaps = {SNAPS: pairs} if SNAPS in data.attrs else {}
     check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number} | snaps, "time", str(path))
     refuse(filter(None, _wrong_arrays(data)), str(path))
     return data

@@ -8,8 +8,9 @@ import sys
 import numpy as np
 import pytest
 
+from umbilical.coordinates import SECOND_DIMENSION
 from umbilical.quantities import CHANNELS, METRICS
-from umbilical.run import SECOND_DIMENSION, Status
+from umbilical.run import Status
 
 
 def test_every_array_carries_its_words(run):

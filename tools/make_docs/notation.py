@@ -5,8 +5,8 @@ from __future__ import annotations
 from scenario import keys_by_meaning
 from writing import code, page, table
 
+from umbilical.coordinates import SECOND_DIMENSION
 from umbilical.quantities import CERTIFICATE, CHANNELS, METRICS, PARAMETERS, STATES, Quantity
-from umbilical.run import SECOND_DIMENSION
 
 
 def notation() -> str:
