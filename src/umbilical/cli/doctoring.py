@@ -6,7 +6,6 @@ import os
 import platform
 import sys
 import tempfile
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -61,6 +60,8 @@ def _folders(cache: Path) -> tuple[Path, ...]:
 
 
 def _version(package: str) -> str | None:
+    from importlib.metadata import PackageNotFoundError, version  # slow to import, and help would wait for it
+
     try:
         return version(package)
     except PackageNotFoundError:

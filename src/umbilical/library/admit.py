@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from inspect import signature
 from typing import Annotated, Any
 
@@ -63,11 +64,17 @@ def _findings(sections: Mapping[str, Any]) -> list[Finding]:
     able = [
         (check, needs)
         for check in checks_for(sections.get("model", "string"))
-        if sections.keys() >= (needs := signature(check).parameters.keys())
+        if sections.keys() >= (needs := _parameters(check))
     ]
     # Overflow in a check is an answer (an infinite wave speed breaks its bound), not a fault of the check.
     with np.errstate(all="ignore"):
         return [finding for check, needs in able for finding in check(**{name: sections[name] for name in needs})]
+
+
+@cache
+def _parameters(check: Callable[..., Any]) -> frozenset[str]:
+    """Names of what a check reads; looking takes longer than most checks do."""
+    return frozenset(signature(check).parameters)
 
 
 def _only_problems(findings: Iterable[Finding]) -> list[Problem]:
