@@ -55,7 +55,13 @@ _OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol"
 
 
 class Status(Enum):
-    """How a run ended. The value is the command line's exit code."""
+    """How a run ended. The value is the command line's exit code.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> run.status is umbilical.Status.COMPLETED, umbilical.Status.DIVERGED.exit_code
+    (True, 3)
+    """
 
     COMPLETED = 0
     DIVERGED = 3
@@ -332,9 +338,18 @@ def _identity(scenario: Scenario) -> dict[str, str | int]:
 def open_run(path: str | os.PathLike[str]) -> Run:
     """A stored run.
 
+    Args:
+        path: a .nc file.
+
     Raises:
         FileError: the file is missing, unreadable, damaged, not a result of Umbilical, of another schema version, or
             holds a scenario this version refuses.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> path = run.save("run.nc")
+    >>> umbilical.open_run("run.nc").metrics["tip_peak"] == run.metrics["tip_peak"]
+    True
     """
     from umbilical.scenario.document import parse
 

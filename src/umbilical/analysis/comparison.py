@@ -20,6 +20,11 @@ class Comparison(ResultFaces):
     Attributes:
         runs: in the order given; ratios are to the first.
         names: what each is called.
+
+    >>> import umbilical
+    >>> runs = [umbilical.simulate(umbilical.load(name, {"duration": 0.5})) for name in ("paper-none", "paper")]
+    >>> umbilical.compare(*runs).names
+    ('paper-none', 'paper')
     """
 
     shown_by: ClassVar[str] = "umbilical.faces.comparison"

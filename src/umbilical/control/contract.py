@@ -50,6 +50,11 @@ class Measurement:
         tip_tension: N(l), N, of the rope; 0 on the string, whose tension follows from weights.
         across: of the rope, what the sensors of the direction y read at the ROV: displacement, slope and, where
             granted, their rates.
+
+    >>> import umbilical
+    >>> measurement = umbilical.Episode(umbilical.load("paper")).measurement
+    >>> float(measurement.length), measurement.motor_speed.shape
+    (450.0, (2,))
     """
 
     tip_displacement: float
@@ -74,6 +79,10 @@ class Command:
         voltage: motor voltages, V, shape (motors,). Alone or with ``thrust``, they go to the drives as they are.
         thrust_across: commanded thrust in the direction y of a rope, N.
         log: numbers of the controller's own to keep in the run, as the channels ``controller_NAME``.
+
+    >>> from umbilical import Command
+    >>> Command(thrust=-20.0, log={"velocity": 0.1}).thrust
+    -20.0
     """
 
     thrust: float | None = None
@@ -87,6 +96,17 @@ class Controller(Protocol):
     """Anything with a period and these two methods can close the loop.
 
     ``state`` is whatever the controller wants to remember; the engine hands it back and never looks inside.
+
+    >>> import umbilical
+    >>> class Spring:
+    ...     period = 0.01  # s
+    ...     def start(self, measurement):
+    ...         return None
+    ...     def update(self, t, measurement, state):
+    ...         return umbilical.Command(thrust=-500.0 * measurement.tip_displacement), state
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}), Spring())
+    >>> run.status.name
+    'COMPLETED'
     """
 
     period: float

@@ -23,6 +23,15 @@ def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
     """Displacement (m) as colour over time (s) and distance from the vessel (m), which hangs down as the cable does.
 
     The coloured region ends where the cable ends, so paying out and hauling in show as they are.
+
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_cable(run).get_ylabel()
+    'distance from the vessel $x$ [m]'
     """
     ax = axes_for(run, ax)
     y = run["displacement"]
@@ -41,7 +50,17 @@ def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
 
 
 def plot_positions(run: Run, *, ax: Axes | None = None) -> Axes:
-    """Displacement at l/4, l/2, 3l/4 and l over time, m."""
+    """Displacement at l/4, l/2, 3l/4 and l over time, m.
+
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> len(umbilical.plot_positions(run).lines)
+    4
+    """
     ax = axes_for(run, ax)
     for number, (name, sigma) in enumerate(PLACES.items()):
         draw(ax, at_sigma(run, sigma), f"$x = {name}$", colour=number)

@@ -34,6 +34,10 @@ def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Fi
     Args:
         certificate: from :func:`umbilical.certify`.
         audit: its two simulations, drawn beside the bound.
+
+    >>> import umbilical
+    >>> certificate = umbilical.certify(umbilical.load("ringdown", {"control.law.slope_gain": 5.0}))
+    >>> umbilical.plot_certificate(certificate).savefig("certificate.png")
     """
     figure = new_figure(9.0, 8.0)
     of_v, of_rate, of_margin = figure.subplots(3, 1, sharex=True)

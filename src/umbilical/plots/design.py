@@ -24,7 +24,11 @@ SOLID = 4
 
 
 def plot_design(design: Design) -> Figure:
-    """Six panels: beta, reflection, rejection, round trips, midpoint and ROV over time, before and after."""
+    """Six panels: beta, reflection, rejection, round trips, midpoint and ROV over time, before and after.
+
+    Args:
+        design: from :func:`umbilical.design`.
+    """
     figure = new_figure(11.0, 10.5)
     panels = figure.subplots(3, 2)
     plot_followed(design, panels[0, 0])

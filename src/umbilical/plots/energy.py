@@ -17,7 +17,17 @@ NEGLIGIBLE = 1e-3
 
 
 def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
-    """Energy of cable and ROV over time, and every work on it since the start that is not negligible, J."""
+    """Energy of cable and ROV over time, and every work on it since the start that is not negligible, J.
+
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_energy(run).get_ylabel()
+    '$E$ [J]'
+    """
     ax = axes_for(run, ax)
     draw(ax, run["energy"], "energy", colour=6, dashed=True)
     for number, name in enumerate(large_works(run)):

@@ -33,7 +33,15 @@ CIRCLES, STRAIGHT = 60, 4.0
 
 
 def plot_margins(report: MarginReport) -> Figure:
-    """Reflection, size and angle of the opened loop, and its Nyquist curve near 1; a colour for each length."""
+    """Reflection, size and angle of the opened loop, and its Nyquist curve near 1; a colour for each length.
+
+    Args:
+        report: from :func:`umbilical.margins`.
+
+    >>> import umbilical
+    >>> report = umbilical.margins(umbilical.load("paper"), [450.0])
+    >>> umbilical.plot_margins(report).savefig("margins.png")
+    """
     figure = new_figure(11.0, 8.0)
     places = figure.subplots(2, 2)
     plot_reflection(report, ax=places[0, 0])

@@ -23,8 +23,18 @@ MISSED = 1.05
 def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = None) -> Axes:
     """One channel of every motor over time: ``motor_speed`` (with its reference), ``motor_voltage``, ``motor_current``.
 
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        channel: which, of every motor.
+        ax: axes to draw into; those of a figure of its own if left out.
+
     Raises:
         ValueError: the run has no motors, or no such channel of them.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_motors(run, "motor_voltage").get_ylabel()
+    '$U$ [V]'
     """
     expect(run, "Run", "open_run")
     if channel not in run.data or "motor" not in run[channel].dims or not run.data.sizes["motor"]:

@@ -34,8 +34,19 @@ def estimated(run: Run) -> list[str]:
 def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax: Axes | None = None) -> Axes:
     """A truth and its estimate over time; ``channel`` is a key of ``ESTIMATES``, ``motor`` counts from 1.
 
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        channel: the truth that was estimated.
+        motor: of a motor's channel, which, from 1.
+        ax: axes to draw into; those of a figure of its own if left out.
+
     Raises:
         ValueError: nothing of that name was estimated in this run, or there is no such motor.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_observers(run).get_ylabel()
+    '$D$ [N]'
     """
     expect(run, "Run", "open_run")
     known = estimated(run)

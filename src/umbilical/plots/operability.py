@@ -23,6 +23,18 @@ def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | 
     """Limiting Hs of the worst heading: a map over depth and period, or over depth for a single period.
 
     A line marks the depths whose axial period is the sea's peak period.
+
+    Args:
+        found: from :func:`umbilical.operate`.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import numpy as np
+    >>> import umbilical
+    >>> from umbilical.screening.criteria import parse_criterion
+    >>> depth, period = np.array([500.0, 1500.0, 3000.0]), np.array([8.0])
+    >>> found = umbilical.operate(umbilical.load_operation("work-class"), [parse_criterion("slack=1e-2/3h")],
+    ...                           depth=depth, period=period, heading=np.radians([135.0]))
+    >>> umbilical.plot_operability(found).get_figure().savefig("limits.png")
     """
     figure = None
     if ax is None:
@@ -71,7 +83,19 @@ def _lines(found: Operability, ax: Axes) -> None:
 
 
 def plot_lowering(found: Lowering) -> Figure:
-    """Risk of slack over winch speed, and over depth how often the cable would go slack at three of the speeds."""
+    """Risk of slack over winch speed, and over depth how often the cable would go slack at three of the speeds.
+
+    Args:
+        found: from :func:`umbilical.lower`.
+
+    >>> import numpy as np
+    >>> import umbilical
+    >>> from umbilical.sea import Spectrum
+    >>> work = umbilical.load_operation("work-class")
+    >>> depth, speed = np.linspace(100.0, 3000.0, 8), np.array([0.5, 1.0, 3.0])
+    >>> found = umbilical.lower(work, Spectrum(1.5, 8.0), heading=np.radians(135.0), depth=depth, speed=speed)
+    >>> umbilical.plot_lowering(found).savefig("lowering.png")
+    """
     figure = new_figure(10.0, 4.5)
     left, right = figure.subplots(1, 2)
     left.semilogy(found.speed, np.maximum(found.risk, 1e-12), color=COLOURS[0], marker="o", markersize=3)

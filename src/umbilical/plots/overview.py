@@ -28,8 +28,15 @@ SHOWN_MOTORS = 4
 def plot_overview(run: Run) -> Figure:
     """Everything worth a first look on one page; what the run does not have gets no panel.
 
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+
     Raises:
         ValueError: the run ended before there was anything to draw.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_overview(run).savefig("run.png")
     """
     check_drawable(run)
     motors = driven(run)

@@ -139,7 +139,16 @@ def _influences(result: StudyResult, metric: str, arms: tuple[str, ...]) -> dict
 
 
 def plot_study(result: StudyResult, metric: str = USUAL) -> Figure:
-    """A first look at a study: maps where two numbers were combined, else distributions and paired ratios."""
+    """A first look at a study: maps where two numbers were combined, else distributions and paired ratios.
+
+    Args:
+        result: from :func:`umbilical.sweep` or :func:`umbilical.open_study`.
+        metric: which to draw, by its name in a run's metrics.
+
+    >>> import umbilical
+    >>> study = umbilical.load_study("fault-map", {"campaigns.1.start.count": 2, "scenario.duration": 0.5})
+    >>> umbilical.plot_study(umbilical.sweep(study)).savefig("study.png")
+    """
     expect(result, "StudyResult", "open_study")
     if result.study.design == "grid" and len(numbers_drawn(result)) >= 2:
         return _title(_maps(result, metric), result, metric)

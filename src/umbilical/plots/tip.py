@@ -13,7 +13,18 @@ if TYPE_CHECKING:
 
 
 def plot_tip(run: Run | Sequence[Run], *, names: Sequence[str] = (), ax: Axes | None = None) -> Axes:
-    """Displacement of the ROV over time, m; of several runs one line each, named by ``names`` or by scenario."""
+    """Displacement of the ROV over time, m; of several runs one line each, named by ``names`` or by scenario.
+
+    Args:
+        run: one result or several.
+        names: a name for each of several.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_tip([run, run], names=["one", "the same"]).get_ylabel()
+    '$x_1$ [m]'
+    """
     runs: list[Any] = [*run] if isinstance(run, list | tuple) else [run]
     if not runs:
         raise ValueError("there is no run to draw")

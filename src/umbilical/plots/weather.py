@@ -15,7 +15,20 @@ if TYPE_CHECKING:
 
 
 def plot_weather(found: Weather) -> Figure:
-    """Seas over period and height with the limit; of a hindcast, how long its windows are, too."""
+    """Seas over period and height with the limit; of a hindcast, how long its windows are, too.
+
+    Args:
+        found: from :func:`umbilical.screening.weather`.
+
+    >>> import numpy as np
+    >>> import umbilical
+    >>> from umbilical.screening.criteria import parse_criterion
+    >>> from umbilical.screening import Seas, weather
+    >>> seas = Seas(np.array([1.0, 3.0]), np.array([8.0, 9.0]), np.array([0.7, 0.3]), None)
+    >>> found = weather(umbilical.load_operation("work-class"), [parse_criterion("slack=1e-2/3h")], seas,
+    ...                 depth=np.array([1500.0]), heading=np.radians([135.0]))
+    >>> umbilical.plot_weather(found).savefig("weather.png")
+    """
     timed = found.seas.time is not None
     figure = new_figure(10.0 if timed else 6.0, 4.5)
     axes = np.atleast_1d(figure.subplots(1, 2 if timed else 1))

@@ -13,7 +13,17 @@ if TYPE_CHECKING:
 
 
 def plot_winch(run: Run, *, ax: Axes | None = None) -> Axes:
-    """Length of the cable (left, m) and winch speed (right, m/s; positive pays out) over time."""
+    """Length of the cable (left, m) and winch speed (right, m/s; positive pays out) over time.
+
+    Args:
+        run: a result, from :func:`umbilical.simulate` or :func:`umbilical.open_run`.
+        ax: axes to draw into; those of a figure of its own if left out.
+
+    >>> import umbilical
+    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
+    >>> umbilical.plot_winch(run).get_ylabel()
+    '$l$ [m]'
+    """
     ax = axes_for(run, ax)
     draw(ax, run["length"], "length")
     ax.plot([], [], color=COLOURS[1], linestyle="--", label="speed, right")

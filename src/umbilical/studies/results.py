@@ -41,6 +41,12 @@ class StudyResult(ResultFaces):
         data: every metric over ``member`` (from 1) and ``arm``, with units; what was drawn as coordinates of ``member``
             under its own key; ``point``, the draws in the unit cube; ``status``, ``reason`` and ``end_time``.
         study: what was run.
+
+    >>> import umbilical
+    >>> study = umbilical.load_study("fault-map", {"campaigns.1.start.count": 2, "scenario.duration": 0.5})
+    >>> found = umbilical.sweep(study)
+    >>> found["tip_peak"].dims
+    ('member', 'arm')
     """
 
     shown_by: ClassVar[str] = "umbilical.faces.study"
@@ -197,8 +203,17 @@ def _identity(study: Study) -> dict[str, str | int]:
 def open_study(path: str | os.PathLike[str]) -> StudyResult:
     """A stored study.
 
+    Args:
+        path: a .nc file.
+
     Raises:
         FileError: missing, damaged, no study's result, or of a study this version refuses.
+
+    >>> import umbilical
+    >>> study = umbilical.load_study("fault-map", {"campaigns.1.start.count": 2, "scenario.duration": 0.5})
+    >>> found = umbilical.sweep(study, "map")
+    >>> umbilical.open_study("map/study.nc").data.equals(found.data)
+    True
     """
     from umbilical.errors import ScenarioError
     from umbilical.scenario.document import read

@@ -127,6 +127,11 @@ def tune(
             not trusted or does not work.
         MissingPartnerError: Optuna is not installed.
         OutputError, FileError: as :func:`~umbilical.studies.sweep.sweep`.
+
+    >>> import umbilical
+    >>> study = umbilical.load_study("gain-tuning", {"tuning.trials": 2, "members": 1, "scenario.duration": 0.5})
+    >>> len(umbilical.tune(study).trials)
+    2
     """
     expect(study, "Study", "load_study")
     tuning = tuning_of(study)

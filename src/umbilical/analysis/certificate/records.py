@@ -145,6 +145,11 @@ class Certificate(ResultFaces):
         proof: the independent verification.
         cures: what would mend it, when it does not hold and this was asked for.
         limits: what it does not speak about.
+
+    >>> import umbilical
+    >>> certificate = umbilical.certify(umbilical.load("ringdown", {"control.law.slope_gain": 5.0}))
+    >>> certificate.holds, bool(certificate.rates.min() > 0.0)
+    (True, True)
     """
 
     shown_by: ClassVar[str] = "umbilical.faces.certificate"
