@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import is_dataclass
 from pathlib import Path
+from typing import Any
+
+from pygments.lexers.special import TextLexer
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
@@ -24,6 +28,7 @@ extensions = [
 html_theme = "furo"
 html_title = f"Umbilical {version}"
 html_copy_source = False
+smartquotes = False  # --out shall stay --out
 exclude_patterns = [
     "_ext",
     "gallery/*.ipynb",
@@ -58,3 +63,19 @@ sphinx_gallery_conf = {
     "abort_on_example_error": True,
     "remove_config_comments": True,
 }
+
+
+def _no_long_signature(app: Any, what: str, name: str, thing: Any, *rest: Any) -> tuple[str, str] | None:
+    """Results and scenarios are not made by hand: their fields stand below, once."""
+    return ("", "") if what == "class" and is_dataclass(thing) and name != "umbilical.Command" else None
+
+
+def _not_shown(app: Any, what: str, name: str, *rest: Any) -> bool | None:
+    return True if name in ("shown_by", "drawn_by") else None
+
+
+def setup(app: Any) -> None:
+    """Show CSV as text, which Pygments does not know, and of records what a reader needs."""
+    app.add_lexer("csv", TextLexer)
+    app.connect("autodoc-process-signature", _no_long_signature)
+    app.connect("autodoc-skip-member", _not_shown)

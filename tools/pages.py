@@ -34,7 +34,7 @@ from typing import Any
 
 _BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", re.DOTALL | re.MULTILINE)
 _NAME = re.compile(r"(?:#|//) ([\w-]+\.(?:toml|py|csv|c))\n")
-_CODE = re.compile(r"# exit code (\d+)$")
+_CODE = re.compile(r"\s#.*\bexit code (\d+)$")
 _REMARK = re.compile(r"\s+#\s.*$")
 _LOOSE = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")

@@ -49,6 +49,11 @@ def test_a_page_that_is_not_current_is_noticed(name: str, tmp_path: Path) -> Non
     assert not WRITER["is_current"](name, tmp_path)
 
 
+def test_the_reference_has_every_public_name_once() -> None:
+    named = re.findall(r"^\.\. auto(?:class|function):: (\w+)$", (ROOT / "docs" / "api.rst").read_text("utf-8"), re.M)
+    assert sorted(named) == sorted(umbilical.__all__)
+
+
 @each_page
 def test_links_lead_somewhere(page: Path) -> None:
     lost = []

@@ -43,7 +43,7 @@ def margins(
       umbilical margins ringdown --set control.law.slope_gain=5  # exit code 7
       umbilical margins paper --lengths 100,300,500 --plot margins.png
       umbilical margins ringdown --set control.law.slope_gain=20 --grid 25,100,400  # exit code 7
-      umbilical margins paper --controller my_module:MyLaw
+      umbilical margins paper --controller my_module:MyLaw --grid 0
 
     Gain, phase and delay margins are for the loop opened at the thrusters. A controller of your own is linearised
     about the ROV at rest below the vessel by differences of its update, and held against it. Exit code 7: not stable
