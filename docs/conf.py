@@ -7,6 +7,7 @@ from dataclasses import is_dataclass
 from pathlib import Path
 from typing import Any
 
+from docutils import nodes
 from pygments.lexers.special import TextLexer
 
 HERE = Path(__file__).parent
@@ -74,8 +75,15 @@ def _not_shown(app: Any, what: str, name: str, *rest: Any) -> bool | None:
     return True if name in ("shown_by", "drawn_by") else None
 
 
+def _dashes(app: Any, doctree: nodes.document) -> None:
+    """Between a parameter and its text, which smart quotes would do, had they not taken --out for a dash as well."""
+    for node in [node for node in doctree.findall(nodes.Text) if node.astext() == " -- "]:
+        node.parent.replace(node, nodes.Text(" \N{EN DASH} "))
+
+
 def setup(app: Any) -> None:
     """Show CSV as text, which Pygments does not know, and of records what a reader needs."""
     app.add_lexer("csv", TextLexer)
     app.connect("autodoc-process-signature", _no_long_signature)
     app.connect("autodoc-skip-member", _not_shown)
+    app.connect("doctree-read", _dashes)

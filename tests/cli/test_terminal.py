@@ -120,6 +120,13 @@ def test_a_table_is_wrapped_to_the_width_that_is_asked_for(monkeypatch):
     assert len(table(rows).splitlines()) == 2
 
 
+def test_the_description_of_a_scenario_is_wrapped_too(umbilical, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "60")
+    description = umbilical("show", "paper").out.split("\n\n")[1]
+    assert max(map(len, description.splitlines())) <= 60
+    assert description.endswith("assumed.")
+
+
 def test_a_long_value_does_not_pad_the_table_of_a_scenario(umbilical, tmp_path):
     times = ", ".join(str(float(k)) for k in range(1000))
     path = tmp_path / "long.toml"

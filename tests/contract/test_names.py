@@ -98,8 +98,10 @@ def test_doctor_lists_what_the_extras_install():
     from umbilical.cli.doctoring import PARTNERS
 
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
-    extras = {name for texts in project["optional-dependencies"].values() for name in map(_package, texts)}
-    assert set(PARTNERS) <= extras
+    extras = {extra: set(map(_package, texts)) for extra, texts in project["optional-dependencies"].items()}
+    ours = {"test", "docs", "dev"}
+    assert set(PARTNERS) <= set.union(*extras.values())
+    assert set.union(*(names for extra, names in extras.items() if extra not in ours)) <= set(PARTNERS)
 
 
 def _package(requirement: str) -> str:

@@ -14,7 +14,17 @@ from umbilical.cli.speech import say, say_json
 from umbilical.faces.text import table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
-PARTNERS = ("control", "distributed", "SALib", "optuna", "moordyn", "fmpy", "gymnasium")
+PARTNERS = (
+    "control",
+    "distributed",
+    "SALib",
+    "optuna",
+    "moordyn",
+    "fmpy",
+    "pythonfmu3",
+    "gymnasium",
+    "wavespectra",
+)
 
 
 def doctor(

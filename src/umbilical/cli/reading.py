@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json
 from umbilical.cli.speech import say, say_json
-from umbilical.faces.text import table
+from umbilical.faces.text import paragraph, table
 
 if TYPE_CHECKING:
     pass
@@ -104,7 +104,7 @@ def _show_scenario(source: str, as_json: bool) -> None:
         (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
     ]
     told = f"before the first step: {found}" if found else ""
-    parts = [f"{scenario.name}, {scenario.hash[:12]}", scenario.description, told, table(entries)]
+    parts = [f"{scenario.name}, {scenario.hash[:12]}", paragraph(scenario.description), told, table(entries)]
     if scenario.assumed:
         parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
     say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))

@@ -44,7 +44,7 @@ def simulate(
         progress: called now and then with the share of the run that is done, 0 to 1.
 
     Returns:
-        The run. A loop that diverges or is interrupted is a run too: ``status`` and ``reason`` say so,
+        The run. A loop that diverges or is interrupted is a run too, whose ``status`` and ``reason`` say so,
         and the samples up to then are kept.
 
     Raises:

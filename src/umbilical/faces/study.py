@@ -8,7 +8,7 @@ import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import shown_unit, table
+from umbilical.faces.text import paragraph, shown_unit, table
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
 from umbilical.studies.rows import STATUSES
@@ -31,7 +31,7 @@ _REASONS = 3
 def text(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
     """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst."""
     study, chosen = result.study, metrics or _usual(result)
-    parts = [study.description]
+    parts = [paragraph(study.description)]
     parts += [_endings(result), _reasons(result)]
     for metric in chosen:
         parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
@@ -217,7 +217,7 @@ def describe(study: Study) -> str:
     rows += [(v.name, v.distribution.kind, *(_short(m[v.name]) for m in middle)) for v in draws.variables]
     arms = [("arm", "changes")] + [(a.name, ", ".join(a.changes) or "none") for a in study.arms]
     head = f"{study.name}: {len(draws)} members ({study.design}) in {len(study.arms)} arms of '{study.scenario.name}'"
-    parts = [head, study.description, table(rows), table(arms)]
+    parts = [head, paragraph(study.description), table(rows), table(arms)]
     if study.assumed:
         parts += ["assumed, because no source gives them:", table(list(study.assumed.items()))]
     return "\n\n".join(filter(None, parts))

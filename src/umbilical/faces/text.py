@@ -54,6 +54,11 @@ def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
     return "\n".join(lines)
 
 
+def paragraph(text: str) -> str:
+    """A text in lines that the terminal (or ``COLUMNS``) has room for; as it is where there is neither."""
+    return "\n".join(wrap(text, max(room, _NARROWEST))) if (room := width()) else text
+
+
 def width() -> int | None:
     """Characters of a line: what ``COLUMNS`` or the terminal says; None where output goes to a file or a pipe."""
     columns = os.environ.get("COLUMNS", "")

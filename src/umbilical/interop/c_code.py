@@ -51,7 +51,7 @@ def to_c(
         force: replace existing files.
 
     Returns:
-        The files: header, source, self-test, its vectors, and a text.
+        Header, source, self-test, its vectors, and a text.
 
     Raises:
         ScenarioError: the scenario was refused, has no law, or asks for what the C controller does not have.

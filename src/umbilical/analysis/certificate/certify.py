@@ -30,7 +30,7 @@ def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
         cure: whether to look for gains that mend what does not hold, which takes longer than all the rest.
 
     Returns:
-        The certificate. One that does not hold is a result, too: ``broken`` and ``cures`` say why and what to do.
+        The certificate. One that does not hold is a result, too, whose ``broken`` and ``cures`` say why and what to do.
 
     Raises:
         ScenarioError: another law than the boundary law, or a slope gain of 0.
