@@ -50,7 +50,7 @@ def notices(found: Confirmation) -> tuple[str, ...]:
     """What the runs assume and leave out."""
     return (
         "assumed on the rope: drag across and added mass of the cable (coefficients 1.2 and 1), drag and added mass of "
-        "the body as in heave in all directions; no current, no control",
+        "the body as in heave in all directions; no material damping (cable.loss_factor), no current, no control",
         "a confirmed sea is one depth, period and heading; elsewhere the limits are those of the frequency domain",
     )
 
