@@ -7,11 +7,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.timeline import MOST_STEPS, check_signal
+from umbilical.plant.checks.timeline import MOST_STEPS, check_signal, shapes
+from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.rope.assemble import at_rest, rope_of, rope_step, section, stiffness, weights_of
 from umbilical.plant.rope.outside import still_water
+from umbilical.plant.rope.statics import node_positions
 from umbilical.plant.top import top_at
 from umbilical.relations.instants import apart
+from umbilical.scenario.environment import EquilibriumShape
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
@@ -117,6 +120,22 @@ def seconds_of(scenario: Scenario) -> float:
     return (_SECONDS * 5 * section(scenario).elements + _SECONDS_OF_WAVE * waves) * count
 
 
+def lean(scenario: Scenario) -> Iterator[Finding]:
+    """A shape at the start is no longer than its cable: a metre of it reaches less than a metre aside."""
+    if any(True for _ in shapes(scenario.environment, scenario.initial)) or any(True for _ in start(scenario)):
+        return
+    length = float(top_at(scenario.winch, 0.0).length)
+    steepest = float(np.abs(slope_of_shape(scenario, node_positions(section(scenario).elements))).max()) / length
+    if not isinstance(scenario.initial, EquilibriumShape) and not steepest < 1.0:
+        yield Problem(
+            "initial",
+            f'"{scenario.initial.shape}", slopes up to {steepest:.3g}',
+            "below 1",
+            "y_x is the sine of the angle, and no cable of this length has that shape",
+            "a smaller or a longer shape",
+        )
+
+
 def steps(scenario: Scenario) -> Iterator[Finding]:
     """The run does not take absurdly many steps."""
     largest, duration = rope_step(scenario), scenario.duration
@@ -133,5 +152,5 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
         )
 
 
-CHECKS = (signals, stretch, weights, thrusters, start, steps)
+CHECKS = (signals, stretch, weights, thrusters, start, lean, steps)
 """What only a scenario with ``model = "rope"`` is asked."""
