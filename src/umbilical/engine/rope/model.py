@@ -220,7 +220,7 @@ class RopeModel:
         if watch.snaps:
             found["largest_snap"] = watch.largest_snap
         found = measured(scenario, found) | saturation(scenario, tally)
-        return {name: float(value) for name, value in found.items()}
+        return {name: float(value) for name, value in found.items() if np.isfinite(value)}
 
     def assemble(
         self, ending: Ending, notices: tuple[str, ...], timing: dict[str, float],
