@@ -172,3 +172,11 @@ def test_metrics_do_not_depend_on_what_is_stored() -> None:
     scenario = load("crosscheck-pd", SMALL | ROPE)
     stored = simulate(scenario).metrics
     assert measure(scenario).metrics.items() <= stored.items()
+
+
+def test_a_run_says_what_thrusters_without_a_limit_gave():
+    run = simulate(load("observation-300m", {"duration": 1.0}))
+    (notice,) = (notice for notice in run.notices if notice.startswith("ideal_thruster"))
+    assert f"{run.metrics['thrust_peak']:.4g} N along x" in notice
+    idle = simulate(load("observation-300m", {"duration": 1.0, "control.law": {"kind": "none"}}))
+    assert not any(notice.startswith("ideal_thruster") for notice in idle.notices)

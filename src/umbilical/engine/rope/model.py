@@ -193,6 +193,12 @@ class RopeModel:
     def notices(self) -> tuple[str, ...]:
         tally, scenario = self._record.tally, self._scenario
         found = [str(notice) for notice in saturation_notices(scenario, tally)]
+        if scenario.ideal_thruster and scenario.control.law.closes_loop:
+            peak = float(tally.measures[0].thrust.peak)
+            found.append(
+                f"ideal_thruster: thrusters without any limit gave up to {peak:.4g} N along x; whether yours can is not in "
+                "this run: give [[motors]] with a voltage_limit"
+            )
         if scenario.cable.axial_stiffness is None:
             found.append(
                 f"cable.axial_stiffness: left out, {self._rope.stiffness:.4g} N assumed: ten thousand times the static "
