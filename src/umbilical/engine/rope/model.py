@@ -196,8 +196,8 @@ class RopeModel:
         if scenario.ideal_thruster and scenario.control.law.closes_loop:
             peak = float(tally.measures[0].thrust.peak)
             found.append(
-                f"ideal_thruster: thrusters without any limit gave up to {peak:.4g} N along x; whether yours can is not in "
-                "this run: give [[motors]] with a voltage_limit"
+                f"ideal_thruster: thrusters without any limit gave up to {peak:.4g} N along x; whether yours can is "
+                "not in this run: give [[motors]] with a voltage_limit"
             )
         if scenario.cable.axial_stiffness is None:
             found.append(
