@@ -31,7 +31,7 @@ def snap(
     \b
     examples
       umbilical snap work-class-3000m --seeds 20 --plot snaps.png
-      umbilical snap work-class-3000m --set winch.length=1500 --risk 0.05
+      umbilical snap work-class-3000m --set winch.length=1500 --risk 0.05  # 20 seeds are too few: exit code 7
     """
     from umbilical.cli.confirming import cost
     from umbilical.cli.progress import announce_compilation, bar, tell
