@@ -82,7 +82,8 @@ def test_characters_the_terminal_does_not_have_are_escaped():
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_an_interruption_while_modules_are_imported(number):
     script = (
-        "import os, sys\n"
+        "import os, signal, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # a shell's background job ignores it
         "class Interrupting:\n"
         "    def find_spec(self, name, *_):\n"
         f"        if name == 'typer': os.kill(os.getpid(), {int(number)})\n"
