@@ -20,6 +20,24 @@ if TYPE_CHECKING:
 
 Source = Annotated[str, Argument(help="An operation that comes along (work-class), or a .toml file.")]
 RANGE = "FROM:TO:COUNT, or values with commas"
+Criterion = Annotated[
+    list[str] | None,
+    Option("--criterion", metavar="NAME=P/TIME", help="slack, top_tension:N or body_heave:M; may be repeated."),
+]
+Height = Annotated[
+    float | None, Option("--height", metavar="HS", help="Is this Hs workable everywhere? If not, exit 7.")
+]
+Confirm = Annotated[
+    int | None,
+    Option(
+        "--confirm",
+        metavar="SEEDS",
+        min=1,
+        max=10000,
+        help="Hold --height, or the lowest limit, against the rope in the time domain, with so many seeds of the sea "
+        "(10 is usual).",
+    ),
+]
 
 
 def operate(
@@ -29,25 +47,9 @@ def operate(
     heading: Annotated[
         str, Option("--heading", metavar="DEG", help=f"Direction the waves go to, 180 is head sea: {RANGE}.")
     ] = "120:180:5",
-    criterion: Annotated[
-        list[str] | None,
-        Option("--criterion", metavar="NAME=P/TIME", help="slack, top_tension:N or body_heave:M; may be repeated."),
-    ] = None,
-    height: Annotated[
-        float | None,
-        Option("--height", metavar="HS", help="Is this Hs workable everywhere? If not, exit 7."),
-    ] = None,
-    confirm: Annotated[
-        int | None,
-        Option(
-            "--confirm",
-            metavar="SEEDS",
-            min=1,
-            max=10000,
-            help="Hold --height, or the lowest limit, against the "
-            "rope in the time domain, with so many seeds of the sea (10 is usual).",
-        ),
-    ] = None,
+    criterion: Criterion = None,
+    height: Height = None,
+    confirm: Confirm = None,
     jobs: Jobs = None,
     seas: Annotated[
         Path | None,
