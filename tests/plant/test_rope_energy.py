@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -91,6 +93,7 @@ def swing(density: float) -> np.ndarray:
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(os.environ.get("NUMBA_DISABLE_JIT") == "1", reason="a run takes an hour as plain Python")
 def test_the_excess_of_a_pendulum_is_the_vibration_of_its_cable() -> None:
     """Ten times lighter, it vibrates past the body's own frequency and is less than a tenth; its mean is right."""
     light, heavy = swing(5e-4), swing(5e-3)
