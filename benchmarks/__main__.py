@@ -11,8 +11,8 @@ from __future__ import annotations
 import argparse
 
 from benchmarks import measure_all
+from umbilical.cli.output import print_json, print_result
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.cli.speech import say, say_json
 from umbilical.faces.text import table
 
 
@@ -28,10 +28,10 @@ def main() -> None:
     with bar("measuring") as advance:
         found = measure_all(max(chosen.repeat, 1), members=chosen.members, cold=chosen.cold, progress=advance)
     if chosen.json:
-        say_json(found.document())
+        print_json(found.document())
     else:
         rows = [(r.name, f"{r.value:.4g}", r.unit, _times(r.speed), r.note) for r in found.rows]
-        say(f"{found.headline}\n\n{table([('', '', '', 'x real time', ''), *rows], right=(1, 3))}")
+        print_result(f"{found.headline}\n\n{table([('', '', '', 'x real time', ''), *rows], right=(1, 3))}")
 
 
 def _times(speed: float | None) -> str:

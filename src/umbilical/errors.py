@@ -36,21 +36,18 @@ class Problem:
         value: what was found, with its unit.
         bound: what is allowed.
         reason: why, in physical or numerical terms.
-        cure: what to do about it.
+        fix: what to do about it.
     """
 
     key: str
     value: str
     bound: str
     reason: str
-    cure: str
+    fix: str
 
     def __str__(self) -> str:
         return (
-            f"{self.key} = {self.value}\n"
-            f"    allowed: {self.bound}\n"
-            f"    because: {self.reason}\n"
-            f"    cure:    {self.cure}"
+            f"{self.key} = {self.value}\n    allowed: {self.bound}\n    because: {self.reason}\n    fix:     {self.fix}"
         )
 
 

@@ -1,4 +1,4 @@
-"""Certificates: the numbers of the model's section 7, optimality, cures, refusals."""
+"""Certificates: the numbers of the model's section 7, optimality, fixes, refusals."""
 
 from __future__ import annotations
 
@@ -117,16 +117,16 @@ def test_no_weights_at_random_are_better(name: str, slope_gain: float) -> None:
 
 
 def recommended(certificate: umbilical.Certificate) -> float:
-    """The gain that the cure prints, read as a user reads it."""
-    (cure,) = certificate.cures
-    assert cure.key == GAIN
-    return float(re.findall(r"(?:at least|exceed) ([0-9.]+) m/s", cure.cure)[0])
+    """The gain that the fix prints, read as a user reads it."""
+    (fix,) = certificate.fixes
+    assert fix.key == GAIN
+    return float(re.findall(r"(?:at least|exceed) ([0-9.]+) m/s", fix.fix)[0])
 
 
-def test_the_cure_is_the_edge_of_what_can_be_certified() -> None:
+def test_the_fix_is_the_edge_of_what_can_be_certified() -> None:
     """Hauling in at 1.2 m/s."""
     certificate = umbilical.certify(hauled_in(1.0, speed=1.2, duration=50.0))
-    assert "for hauling in at 1.2 m/s" in certificate.cures[0].cure
+    assert "for hauling in at 1.2 m/s" in certificate.fixes[0].fix
     gain = recommended(certificate)
     assert 1.2 < gain < 1.21
     assert umbilical.certify(hauled_in(gain, speed=1.2, duration=50.0)).holds
@@ -134,15 +134,15 @@ def test_the_cure_is_the_edge_of_what_can_be_certified() -> None:
 
 
 @pytest.mark.parametrize("slope_gain", [0.9995, 1.0005, 1.001, 1.002])
-def test_the_cure_never_asks_for_what_is_there(slope_gain: float) -> None:
-    """Hauling in at 1 m/s: within the thousandth that is left free nothing holds, and the cure is beyond it."""
+def test_the_fix_never_asks_for_what_is_there(slope_gain: float) -> None:
+    """Hauling in at 1 m/s: within the thousandth that is left free nothing holds, and the fix is beyond it."""
     scenario = hauled_in(slope_gain, duration=50.0)
     certificate = umbilical.certify(scenario)
     assert not certificate.holds
     gain = recommended(certificate)
     assert slope_gain < gain < 1.01
     assert umbilical.certify(scenario.replace({GAIN: gain})).holds
-    assert "0.1% of each bound left free" in certificate.cures[0].bound
+    assert "0.1% of each bound left free" in certificate.fixes[0].bound
 
 
 @pytest.mark.slow
@@ -153,7 +153,7 @@ def test_across_the_edge_what_holds_is_what_is_proved() -> None:
         certificate = umbilical.certify(umbilical.load("paper", {GAIN: slope_gain}))
         decays = certificate.proof.holds and certificate.rates.min() > 0.0
         (shown,) = (i for i in certificate.inequalities if i.name == "K5")
-        assert certificate.holds == decays == shown.holds == (not certificate.cures)
+        assert certificate.holds == decays == shown.holds == (not certificate.fixes)
         assert shown.right == pytest.approx(certificate.rate, rel=1e-9)
         assert certificate.holds or recommended(certificate) == 0.601, "which is the last of these"
         verdicts.append(certificate.holds)
@@ -173,7 +173,7 @@ def test_a_gain_can_be_too_large() -> None:
     """``c_l^2/beta`` must exceed the speed of hauling in, too: 2500/3000 < 1."""
     certificate = umbilical.certify(hauled_in(3000.0, duration=50.0))
     assert [inequality.name for inequality in certificate.broken] == ["K1"]
-    assert "must not exceed" in certificate.cures[0].cure
+    assert "must not exceed" in certificate.fixes[0].fix
     gain = recommended(certificate)
     assert 2480.0 < gain < 2500.0
     assert umbilical.certify(hauled_in(gain, duration=50.0)).holds
@@ -186,9 +186,9 @@ def test_a_winch_that_no_gain_mends_is_slowed_down_and_that_is_proved() -> None:
     scenario = umbilical.load("paper", FREE | {GAIN: 5.0, "winch": JERKY})
     certificate = umbilical.certify(scenario)
     assert not certificate.holds
-    (cure,) = certificate.cures
-    assert cure.key == "winch"
-    changes = dict(re.findall(r"([a-z_.]+) = ([0-9.]+)", cure.cure))
+    (fix,) = certificate.fixes
+    assert fix.key == "winch"
+    changes = dict(re.findall(r"([a-z_.]+) = ([0-9.]+)", fix.fix))
     assert "winch.frequency" in changes
     assert umbilical.certify(scenario.replace({key: float(value) for key, value in changes.items()})).holds
 
@@ -199,7 +199,7 @@ def test_where_nothing_is_proved_nothing_is_suggested() -> None:
     table = {"law": "table", "times": times.tolist(), "lengths": (400.5 - 0.5 * np.cos(1.5 * times)).tolist()}
     certificate = umbilical.certify(umbilical.load("paper", FREE | {GAIN: 5.0, "winch": table, "duration": 10.0}))
     assert not certificate.holds
-    assert certificate.cures == ()
+    assert certificate.fixes == ()
 
 
 @pytest.mark.parametrize("changes", [
@@ -209,17 +209,17 @@ def test_where_nothing_is_proved_nothing_is_suggested() -> None:
     {"winch": JERKY | {"frequency": 0.3, "amplitude": 4.0}, GAIN: 30000.0},
 ])  # fmt: skip
 @pytest.mark.parametrize("moves", [False, True])
-def test_a_cure_that_is_followed_is_certified(changes: dict, moves: bool) -> None:
+def test_a_fix_that_is_followed_is_certified(changes: dict, moves: bool) -> None:
     vessel = [{"kind": "sine", "amplitude": 0.5, "frequency": 0.7, "phase": 0.0}] if moves else []
     scenario = umbilical.load(
         "paper", FREE | changes | {"environment.vessel_motion": vessel, "environment.vessel_ramp": 20.0}
     )
     certificate = umbilical.certify(scenario)
     assert not certificate.holds
-    for cure in certificate.cures:
-        numbers = re.findall(r"(?:at least|exceed|slope_gain =) ([0-9.]+)", cure.cure)
-        assert umbilical.certify(scenario.replace({GAIN: float(numbers[0])}), cure=False).holds
-    assert certificate.cures
+    for fix in certificate.fixes:
+        numbers = re.findall(r"(?:at least|exceed|slope_gain =) ([0-9.]+)", fix.fix)
+        assert umbilical.certify(scenario.replace({GAIN: float(numbers[0])}), fix=False).holds
+    assert certificate.fixes
 
 
 def test_weights_at_their_edge_are_not_chosen() -> None:
@@ -237,7 +237,7 @@ def test_weights_at_their_edge_are_not_chosen() -> None:
 def test_what_is_believed_and_not_true_is_outside_even_where_it_is_zero(believed: dict[str, float]) -> None:
     def limits(nominal: dict[str, float]) -> str:
         scenario = umbilical.load("ringdown", {GAIN: 5.0, "payload.damping": 200.0, "control.nominal": nominal})
-        return "; ".join(umbilical.certify(scenario, cure=False).limits)
+        return "; ".join(umbilical.certify(scenario, fix=False).limits)
 
     assert "constants the controller believes" in limits(believed)
     assert "constants the controller believes" not in limits({})

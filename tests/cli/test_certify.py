@@ -46,7 +46,7 @@ def test_one_object_of_what_does_not_hold(umbilical):
     assert set(found["rates"]) == {None}
     assert found["proof"] == {"holds": False, "boxes": 0, "open": []}
     assert found["bounds"] == {}
-    assert [cure["key"] for cure in found["cures"]] == [GAIN]
+    assert [fix["key"] for fix in found["fixes"]] == [GAIN]
 
 
 def test_audit_and_picture(umbilical, tmp_path):

@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from umbilical.cli.conclusion import conclude
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.output import EXIT_CODES
 from umbilical.faces.conclusion import Conclusion, Decision
 
 

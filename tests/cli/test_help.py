@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from umbilical import __version__
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.output import EXIT_CODES
 from umbilical.errors import UmbilicalError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
 from umbilical.run import Status

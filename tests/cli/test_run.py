@@ -137,7 +137,7 @@ def test_problems_come_all_at_once_and_as_data(umbilical):
     document = done.document()
     assert document["status"] == "REFUSED"
     assert {problem["key"] for problem in document["problems"]} == {"cable.lenght", "payload.mass", "nonsense"}
-    assert all(set(p) == {"key", "value", "bound", "reason", "cure"} and all(p.values()) for p in document["problems"])
+    assert all(set(p) == {"key", "value", "bound", "reason", "fix"} and all(p.values()) for p in document["problems"])
     assert all(problem["key"] in done.err for problem in document["problems"])
     assert "Traceback" not in done.err
 

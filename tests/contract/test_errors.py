@@ -16,11 +16,11 @@ def test_the_tree_in_the_docstring_is_the_tree():
 
 
 def test_a_scenario_error_says_everything_about_every_problem():
-    problems = [Problem(f"key{k}", f"value{k}", f"bound{k}", f"reason{k}", f"cure{k}") for k in (1, 2)]
+    problems = [Problem(f"key{k}", f"value{k}", f"bound{k}", f"reason{k}", f"fix{k}") for k in (1, 2)]
     text = str(ScenarioError(problems, "my.toml"))
     assert text.startswith("my.toml: 2 problems\n")
     for problem in problems:
-        for part in (problem.key, problem.value, problem.bound, problem.reason, problem.cure):
+        for part in (problem.key, problem.value, problem.bound, problem.reason, problem.fix):
             assert part in text
 
 

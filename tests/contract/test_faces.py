@@ -52,7 +52,7 @@ def test_they_say_what_the_command_says(capsys: pytest.CaptureFixture[str]) -> N
 
 
 def test_a_certificate_that_does_not_hold_says_so_first() -> None:
-    found = umbilical.certify(umbilical.load("paper"), cure=False)
+    found = umbilical.certify(umbilical.load("paper"), fix=False)
     assert found.summary().startswith("paper: not certified")
     assert found.to_dict()["exit_code"] == 7
     assert "not certified" in found._repr_html_()

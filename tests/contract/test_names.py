@@ -95,7 +95,7 @@ def test_doctor_lists_what_the_extras_install():
     import tomllib
     from pathlib import Path
 
-    from umbilical.cli.doctoring import PARTNERS
+    from umbilical.cli.doctor import PARTNERS
 
     project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
     extras = {extra: set(map(_package, texts)) for extra, texts in project["optional-dependencies"].items()}

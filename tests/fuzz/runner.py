@@ -19,7 +19,7 @@ import typer
 from tests.fuzz.inputs import Case
 from umbilical.cli import main
 from umbilical.cli.app import app
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.output import EXIT_CODES
 from umbilical.engine import simulate
 
 _COMMAND = typer.main.get_command(app)

@@ -33,7 +33,7 @@ from tests.fuzz.inputs import (
 )
 from tests.fuzz.runner import Hangs, answer, faults
 from umbilical import simulate
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.output import EXIT_CODES
 from umbilical.formats import to_netcdf
 from umbilical.scenario.document import validate
 from umbilical.studies.engines import threads

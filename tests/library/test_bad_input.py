@@ -32,7 +32,7 @@ def expect(case: Case, preset: str = "paper") -> None:
     assert key in found, f"{key} not among {sorted(found)}"
     assert any(fragment in problem.bound for problem in found[key]), found[key]
     for problem in found[key]:
-        assert all((problem.value, problem.bound, problem.reason, problem.cure)), problem
+        assert all((problem.value, problem.bound, problem.reason, problem.fix)), problem
 
 
 def named(cases: list[Case]) -> Any:
@@ -391,10 +391,9 @@ def test_a_bad_entry_does_not_make_its_list_too_short() -> None:
 
 def test_a_misspelt_key_is_met_with_the_nearest_name() -> None:
     assert (
-        problems({"control.law.damping_gian": 1.0})["control.law.damping_gian"][0].cure
-        == "did you mean 'damping_gain'?"
+        problems({"control.law.damping_gian": 1.0})["control.law.damping_gian"][0].fix == "did you mean 'damping_gain'?"
     )
-    assert problems({"winch.law": "quintc"})["winch.law"][0].cure == "did you mean 'quintic'?"
+    assert problems({"winch.law": "quintc"})["winch.law"][0].fix == "did you mean 'quintic'?"
 
 
 def test_the_message_shows_value_and_unit() -> None:
@@ -403,7 +402,7 @@ def test_the_message_shows_value_and_unit() -> None:
         "motors.2.resistance = -0.08 ohm",
         "    allowed: above 0 and at most 1e+12 ohm",
         "    because: it limits the current of a stalled motor",
-        "    cure:    give above 0 and at most 1e+12 ohm",
+        "    fix:     give above 0 and at most 1e+12 ohm",
     ]
 
 
@@ -440,5 +439,5 @@ def test_any_number_is_admitted_or_refused_but_never_crashes(key: str, value: fl
 
 def test_a_table_that_was_expected_is_named_with_its_keys():
     found = problems({"payload": 500.0, "environment.water": {"current": [[0.0, 0.7]]}}, "paper")
-    assert [problem.cure for problem in found["payload"]] == ["give a table with mass, damping"]
-    assert [problem.cure for problem in found["environment.water.current"]] == ["give a table with depths, speeds"]
+    assert [problem.fix for problem in found["payload"]] == ["give a table with mass, damping"]
+    assert [problem.fix for problem in found["environment.water.current"]] == ["give a table with depths, speeds"]

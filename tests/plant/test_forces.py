@@ -17,7 +17,7 @@ from umbilical.plant.forces.table import FORCES, WORKS, decays
 from umbilical.plant.layout import to_nodal
 from umbilical.quantities import CHANNELS
 from umbilical.relations.water import line_inertia, payload_inertia
-from umbilical.verify.ours import open_loop
+from umbilical.verify.engine import open_loop
 
 CURRENT = {"depths": [0.0, 30.0, 60.0], "speeds": [0.6, 0.4, -0.3]}
 STILL = open_loop(

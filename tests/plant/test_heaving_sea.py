@@ -44,7 +44,7 @@ def test_slack_is_refused_with_its_instant_and_points_to_the_rope() -> None:
     with pytest.raises(ScenarioError, match=r"N at the ROV at .* s") as refused:
         umbilical.load("ringdown", {"environment.sea": SEA, **SHORT, "payload.wet_weight": 20.0})
     problem = next(p for p in refused.value.problems if p.key == "environment.sea")
-    assert 'model = "rope"' in problem.cure
+    assert 'model = "rope"' in problem.fix
 
 
 def test_the_rope_heaves_with_or_without_the_key() -> None:

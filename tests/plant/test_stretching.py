@@ -16,7 +16,7 @@ from umbilical.plant.stretching import stretching
 from umbilical.plant.top import top_at
 from umbilical.screening import load_operation, respond
 from umbilical.sea import Spectrum
-from umbilical.verify.ours import open_loop, sine
+from umbilical.verify.engine import open_loop, sine
 
 STILL = {"law": "constant", "length": 3000.0}
 BOW_QUARTER = 2.356194490192345

@@ -12,7 +12,7 @@ from umbilical.errors import ScenarioError
 from umbilical.library.admit import admit
 from umbilical.plant.equilibrium import equilibrium
 from umbilical.relations.tension import AxialDrag, across, hanging, sinking, tension
-from umbilical.verify.ours import open_loop, sine
+from umbilical.verify.engine import open_loop, sine
 
 SEA: dict[str, Any] = {
     "environment.gravity": 9.81,

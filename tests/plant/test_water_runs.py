@@ -8,7 +8,7 @@ import numpy as np
 
 import umbilical
 from tests.plant.test_water import SEA
-from umbilical.verify.ours import open_loop, sine
+from umbilical.verify.engine import open_loop, sine
 
 MOVED: dict[str, Any] = {
     **SEA,

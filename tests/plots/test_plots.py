@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
 from umbilical import Run, load, plots, simulate
-from umbilical.cli.drawing import Kind
+from umbilical.cli.plot import Kind
 from umbilical.errors import OutputError
 from umbilical.plots.figure import at_sigma, draw
 from umbilical.plots.observers import ESTIMATES

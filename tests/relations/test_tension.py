@@ -190,7 +190,7 @@ answers = {
     "certificate: growth at jumps": numbers(certificate.stretch),
     "certificate: exact rate": [certificate.exact_rate],
     "certificate: fixed length": [certificate.fixed_length_rate],
-    "certificate: start": numbers(umbilical.certify(s, cure=False).start),
+    "certificate: start": numbers(umbilical.certify(s, fix=False).start),
     "certificate: reach": numbers(certificate.reach),
     "certificate: proved": [certificate.proof.holds],
 }

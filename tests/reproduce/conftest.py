@@ -7,9 +7,9 @@ import pytest
 from umbilical.reproduce.claims import judge
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
 from umbilical.reproduce.ledger import Evidence, Finding
+from umbilical.reproduce.maps import compute_maps
 from umbilical.reproduce.reproduction import evidence as collect
 from umbilical.reproduce.reproduction import run_experiments
-from umbilical.reproduce.slices import compute_slices
 
 
 @pytest.fixture(scope="session")
@@ -20,7 +20,7 @@ def runs() -> Runs:
 @pytest.fixture(scope="session")
 def evidence(runs: Runs) -> Evidence:
     """Runs, the scan of the gain and its edges; no maps."""
-    return collect(runs, compute_slices(["gain"]))
+    return collect(runs, compute_maps(["gain"]))
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,7 @@ from umbilical.reproduce import claims_adaptation, claims_faults, claims_vibrati
 from umbilical.reproduce.claims import judge
 from umbilical.reproduce.experiments import FAULTS, Runs, cell
 from umbilical.reproduce.ledger import Evidence, Finding, Verdict
-from umbilical.reproduce.slices import MAPS
+from umbilical.reproduce.maps import MAPS
 from umbilical.run import Run
 
 PROPOSED = cell("none", "without")

@@ -32,10 +32,10 @@ def test_the_numbers_are_as_published(findings: tuple[Finding, ...]) -> None:
 def test_the_whole_reproduction_is_as_published() -> None:
     from umbilical.reproduce.claims import judge
     from umbilical.reproduce.experiments import EXPERIMENTS
+    from umbilical.reproduce.maps import compute_maps
     from umbilical.reproduce.reproduction import evidence, run_experiments
-    from umbilical.reproduce.slices import compute_slices
 
-    found = judge(evidence(run_experiments(tuple(EXPERIMENTS)), compute_slices()))
+    found = judge(evidence(run_experiments(tuple(EXPERIMENTS)), compute_maps()))
     assert [str(one) for one in deviations(found)] == []
 
 

@@ -16,9 +16,9 @@ from umbilical.plots.paper.style import COLUMN_WIDTH
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs
 from umbilical.reproduce.figures import PICTURES, Picture
 from umbilical.reproduce.lyapunov import lyapunov
+from umbilical.reproduce.maps import MAPS
 from umbilical.reproduce.reproduction import KINDS, choose, show
-from umbilical.reproduce.slices import MAPS
-from umbilical.reproduce.tabular import to_csv
+from umbilical.reproduce.tables import to_csv
 
 FROM_RUNS = [picture for picture in PICTURES.values() if not picture.scanned]
 

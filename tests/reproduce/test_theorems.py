@@ -141,8 +141,8 @@ def test_a_stable_cascade_is_asked_for(evidence: Evidence) -> None:
 def test_the_edges_are_edges(evidence: Evidence) -> None:
     """A step of the search below the first edge nothing is certified, below the second the cascade is stable."""
     found = evidence.proofs
-    assert not proofs.certify(PAPER.replace({proofs.BETA: 0.98 * found.certified}), cure=False).holds
-    assert proofs.certify(PAPER.replace({proofs.BETA: found.certified}), cure=False).holds
+    assert not proofs.certify(PAPER.replace({proofs.BETA: 0.98 * found.certified}), fix=False).holds
+    assert proofs.certify(PAPER.replace({proofs.BETA: found.certified}), fix=False).holds
     assert proofs.cascade_stable(PAPER.replace({proofs.BETA: 0.9 * found.unstable_from}))
     assert not proofs.cascade_stable(PAPER.replace({proofs.BETA: found.unstable_from}))
     assert proofs.edge(lambda x: x < 3.0, (1.0, 8.0), 12) == pytest.approx(3.0, rel=1e-3)

@@ -226,10 +226,10 @@ def test_marks_that_are_no_table_of_reasons_are_refused(tmp_path: Path, marks: s
 def test_a_name_that_is_only_half_alike_is_not_suggested() -> None:
     with pytest.raises(ScenarioError) as caught:
         load("paper", {"motors.1.current_limit": 5.0})
-    assert "did you mean" not in caught.value.problems[0].cure
+    assert "did you mean" not in caught.value.problems[0].fix
     with pytest.raises(ScenarioError) as caught:
         load("paper", {"motors.1.voltage_limt": 5.0})
-    assert caught.value.problems[0].cure == "did you mean 'voltage_limit'?"
+    assert caught.value.problems[0].fix == "did you mean 'voltage_limit'?"
 
 
 def _fields(record):
@@ -240,9 +240,9 @@ def _fields(record):
 
 
 @pytest.mark.parametrize("record", [Scenario, Operation])
-def test_no_cure_is_a_mere_unit(record):
-    """Who reads "cure: kg" knows no more than before; without a cure the bounds are told."""
-    given = [(word(field, "unit"), word(field, "cure")) for field in _fields(record)]
+def test_no_fix_is_a_mere_unit(record):
+    """Who reads "fix: kg" knows no more than before; without a fix the bounds are told."""
+    given = [(word(field, "unit"), word(field, "fix")) for field in _fields(record)]
     spelt = {"seconds", "metres", "newton", "ohm", "kilograms", "volts"}
     assert len(given) > 20
-    assert [cure for unit, cure in given if cure and (cure == unit or cure in spelt)] == []
+    assert [fix for unit, fix in given if fix and (fix == unit or fix in spelt)] == []

@@ -142,7 +142,7 @@ def test_a_misspelt_key_of_a_relative_factor_is_told_what_was_meant() -> None:
         small_study(factors=[{"key": "payload.mas", "relative": True, "distribution": HALF_TO_DOUBLE}])
     (problem,) = refused.value.problems
     assert problem.key == "payload.mas"
-    assert "did you mean 'mass'" in problem.cure
+    assert "did you mean 'mass'" in problem.fix
 
 
 def test_a_relative_factor_of_what_is_no_number_is_refused() -> None:

@@ -53,7 +53,7 @@ def drawn() -> Iterator[Certificate]:
             scenario = umbilical.load("ringdown", fixed | change)
         except ScenarioError:  # gains that the observers of the real loop cannot carry
             continue
-        certificate = umbilical.certify(scenario, cure=False)
+        certificate = umbilical.certify(scenario, fix=False)
         if certificate.holds:
             yield certificate
 

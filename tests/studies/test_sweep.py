@@ -177,7 +177,7 @@ def test_complete_runs_are_kept_on_request_and_their_size_is_told(tmp_path):
 
 def test_room_is_needed_only_for_what_is_not_there_yet(tmp_path, monkeypatch):
     study, said = small_study(members=3, trajectories={"keep": "all"}), []
-    sweep(study, tmp_path / "out", tell=said.append)
+    sweep(study, tmp_path / "out", report=said.append)
     assert "MB will be stored" in said[0]
     room = disk_needed(Draws(study)) // 10
     monkeypatch.setattr("shutil.disk_usage", lambda _: type("Disk", (), {"free": room}))

@@ -22,7 +22,7 @@ from umbilical.plant.checks import motion
 from umbilical.plant.forces import drag
 from umbilical.relations import tension
 from umbilical.scenario.document import look_up
-from umbilical.verify import ours
+from umbilical.verify import engine
 
 Break = Callable[[pytest.MonkeyPatch], None]
 
@@ -32,8 +32,8 @@ def another_scenario(change: Callable[[Scenario], Mapping[str, Any]]) -> Break:
 
     def apply(patch: pytest.MonkeyPatch) -> None:
         for name in ("simulate", "step_matrix"):
-            right = getattr(ours, name)
-            patch.setattr(ours, name, lambda scenario, right=right: right(scenario.replace(change(scenario))))
+            right = getattr(engine, name)
+            patch.setattr(engine, name, lambda scenario, right=right: right(scenario.replace(change(scenario))))
 
     return apply
 

@@ -6,7 +6,7 @@ import numpy as np
 import xarray
 
 from umbilical.reproduce.experiments import ARMS, OBSERVERS
-from umbilical.reproduce.slices import GAIN_CASES, GAINS, SLICES, Axis
+from umbilical.reproduce.maps import GAIN_CASES, GAINS, SLICES, Axis
 
 
 def made_up_maps(diverging: float = 0.1) -> dict[str, xarray.Dataset]:

@@ -6,8 +6,8 @@ from typing import Any
 
 import umbilical
 from umbilical import Run, Scenario, Status
+from umbilical.verify.engine import STEADY_TENSION, UNDAMPED, constant, dotted, open_loop, sine
 from umbilical.verify.invariance import small
-from umbilical.verify.ours import STEADY_TENSION, UNDAMPED, constant, dotted, open_loop, sine
 
 __all__ = ["STEADY_TENSION", "UNDAMPED", "constant", "dotted", "open_loop", "run", "sine", "small"]
 

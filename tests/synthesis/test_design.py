@@ -15,8 +15,8 @@ from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.errors import ScenarioError
 from umbilical.plots import plot_margins
 from umbilical.synthesis.design import _limited_by, _missing, check_design, design
+from umbilical.synthesis.iterate import Limits, Outcome, Side, design_within, side
 from umbilical.synthesis.margins import margins
-from umbilical.synthesis.rounds import Limits, Outcome, Side, design_within, side
 from umbilical.synthesis.score import Demands, Effort, Judge
 from umbilical.synthesis.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
 from umbilical.synthesis.trial import attempt, rms_above
@@ -288,12 +288,12 @@ def test_a_limit_is_named_only_where_the_search_without_it_was_better():
 
 
 def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
-    from umbilical.synthesis import rounds
+    from umbilical.synthesis import iterate
 
     tried = []
     trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
     sides = [Side(RINGDOWN, Demands(0.5, 0.0, 0.0), score(SLOW_SLOPE), margins(RINGDOWN), trial)]
-    monkeypatch.setattr(rounds, "_round", lambda task, begun, progress: tried.append(task.ceilings) or ({}, sides[0]))
+    monkeypatch.setattr(iterate, "_round", lambda task, begun, progress: tried.append(task.ceilings) or ({}, sides[0]))
     task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
     monkeypatch.setattr(Side, "kept", property(lambda side: True))
     outcome = design_within(task, Limits(voltage=0.5 * trial.voltage_peak), lambda share: None)
@@ -302,7 +302,7 @@ def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
         np.inf,
         pytest.approx(0.475 * sides[0].score.effort.voltage, rel=1e-3),
     ]
-    assert len(tried) == rounds.ROUNDS
+    assert len(tried) == iterate.ROUNDS
     monkeypatch.setattr(Side, "kept", property(lambda side: False))
     tried.clear()
     assert design_within(task, Limits(voltage=0.1), lambda share: None).limited == ()

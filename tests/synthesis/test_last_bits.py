@@ -28,9 +28,9 @@ GAINS, RESULTS = 0.01, 0.02
 """Relative tolerances that docs/design.md states, of gains and of what a simulation gives with them."""
 SHORT_DESIGN = """
 import json, umbilical
-from umbilical.synthesis import rounds
+from umbilical.synthesis import iterate
 from umbilical.synthesis.design import design
-rounds.GENERATIONS = 4
+iterate.GENERATIONS = 4
 short = {"grid.elements": 8, "duration": 4.0}
 found = design(umbilical.load("ringdown", short), "both", inner=True)
 trial = found.after.trial

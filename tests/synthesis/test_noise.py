@@ -11,11 +11,11 @@ import umbilical
 from umbilical.analysis.laws import root_slope
 from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.scenario.scenario import Scenario
-from umbilical.synthesis import rounds
+from umbilical.synthesis import iterate
 from umbilical.synthesis.design import _missing
+from umbilical.synthesis.iterate import Limits, Outcome, Side
 from umbilical.synthesis.margins import margins
 from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, commanded_spectrum, reading_noise, voltage_noise
-from umbilical.synthesis.rounds import Limits, Outcome, Side
 from umbilical.synthesis.score import Demands, Judge, Score
 from umbilical.synthesis.search import Knob, Task, explore, follow
 from umbilical.synthesis.trial import attempt
@@ -88,7 +88,7 @@ def test_the_mean_over_the_phase_of_echoes_is_the_sum_over_resonances(damping):
 
 def test_the_verdict_is_of_the_worst_length_and_thrust():
     task = Task(umbilical.load("paper", NOISE), [], "both", Demands(), 450.0, 500.0)
-    worst = rounds.worst_noise(task, task.scenario, (0.0, 500.0))
+    worst = iterate.worst_noise(task, task.scenario, (0.0, 500.0))
     judges = [Judge(task.scenario, length, Demands()) for length in (450.0, 475.0, 500.0)]
     each = [voltage_noise(judge, task.loop({}), task.scenario, [thrust]) for judge in judges for thrust in (0.0, 500.0)]
     assert worst.thrust == 0.0
@@ -191,15 +191,15 @@ def test_the_least_noise_is_searched_for_where_the_limit_is_not_reached(monkeypa
         asked.append((task.noise_ceiling, task.least_noise))
         return {}, side(4.0 if task.least_noise else 5.0)
 
-    monkeypatch.setattr(rounds, "_round", one_round)
+    monkeypatch.setattr(iterate, "_round", one_round)
     monkeypatch.setattr(Side, "kept", property(lambda side: True))
     task = Task(umbilical.load("ringdown", NOISE), [], "both", Demands(), 400.0, 50.0)
-    outcome = rounds.design_within(task, Limits(), lambda share: None)
+    outcome = iterate.design_within(task, Limits(), lambda share: None)
     assert outcome.side.noise.rms == 4.0
     assert asked[0] == (pytest.approx(2.94), False)
     assert asked[-1] == (np.inf, True)
     assert asked[1][0] < asked[0][0]
-    assert rounds.design_within(task, Limits(noise=6.0), lambda share: None).quietest is None
+    assert iterate.design_within(task, Limits(noise=6.0), lambda share: None).quietest is None
 
 
 @pytest.mark.slow

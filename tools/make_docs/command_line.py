@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 from writing import code, page, table
 
 from umbilical.cli.app import app
-from umbilical.cli.speech import EXIT_CODES
+from umbilical.cli.output import EXIT_CODES
 
 FILES = Path(__file__).with_suffix(".md")
 """What the examples need that none of them makes."""

@@ -25,23 +25,23 @@ def notation() -> str:
         "result files and the labels of the axes.",
         "## Parameters: what a scenario says",
         "Names are keys of a scenario; [scenario.md](scenario.md) gives their bounds and defaults.",
-        table(head, (words(name, q) for name, q in rows)),
+        table(head, (described(name, q) for name, q in rows)),
         "## Channels: what a run holds",
         f"Every channel is over `time`; {dimensions()}",
-        table(head, (words(name, q) for name, q in channels)),
+        table(head, (described(name, q) for name, q in channels)),
         "## States: what plant, sensors and controller hold",
         "Fields of the records that the loop works on (`src/umbilical/frames.py`), beside channels and parameters.",
-        table(head, (words(f"`{name}`", q) for name, q in STATES.items())),
+        table(head, (described(f"`{name}`", q) for name, q in STATES.items())),
         "## Metrics: single numbers of a run",
         "Peaks and root mean squares are taken over every control sample, not over the stored ones.",
         table(("name", "unit", "meaning"), ((name, q.unit, q.meaning) for name, q in metrics)),
         "## Certificate: what `umbilical certify` says",
         "Weights are over `gamma`, which is 1, so V is an energy; see [certificates.md](certificates.md).",
-        table(head, (words(f"`{name}`", q) for name, q in CERTIFICATE.items())),
+        table(head, (described(f"`{name}`", q) for name, q in CERTIFICATE.items())),
     )
 
 
-def words(name: str, q: Quantity) -> tuple[str, ...]:
+def described(name: str, q: Quantity) -> tuple[str, ...]:
     """One row of a table of words."""
     return (f"${q.symbol}$" if q.symbol else "", name, q.unit, q.meaning, q.source, q.clash)
 

@@ -158,6 +158,6 @@ def check(scenario: Scenario) -> None:
         raise ScenarioError([problem], scenario.name)
     if scenario.ideal_thruster and law.reads_rates and law.boundary_gains:
         reason = "with an ideal thruster the rate of the slope jumps at every sample, which has no linear response"
-        cure = "rates = 'observer', or ideal_thruster = false"
-        problem = Problem("control.law.rates", "sensor", "observer, or motors in the loop", reason, cure)
+        fix = "rates = 'observer', or ideal_thruster = false"
+        problem = Problem("control.law.rates", "sensor", "observer, or motors in the loop", reason, fix)
         raise ScenarioError([problem], scenario.name)

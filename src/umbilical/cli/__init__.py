@@ -20,7 +20,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: what stands behind ``umbilical``; those of this process if left out.
 
     Returns:
-        The exit code, see :data:`umbilical.cli.speech.EXIT_CODES`.
+        The exit code, see :data:`umbilical.cli.output.EXIT_CODES`.
     """
     with interruptible() as came:
         try:

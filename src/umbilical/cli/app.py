@@ -12,26 +12,24 @@ from typing import Annotated
 import typer
 
 from umbilical import __version__
-from umbilical.cli import (
-    animating,
-    certifying,
-    designing,
-    doctoring,
-    drawing,
-    exporting,
-    judging,
-    listing,
-    operating,
-    reading,
-    reproducing,
-    running,
-    snapping,
-    sweeping,
-    tuning,
-    verifying,
-    warming,
-)
-from umbilical.cli.speech import EXIT_CODES, refusal, say, say_json, tell
+from umbilical.cli.animate import animate
+from umbilical.cli.certify import certify
+from umbilical.cli.design import design
+from umbilical.cli.doctor import doctor
+from umbilical.cli.export import export
+from umbilical.cli.margins import margins
+from umbilical.cli.operate import lower, operate
+from umbilical.cli.output import EXIT_CODES, print_json, print_result, refusal, report
+from umbilical.cli.plot import plot
+from umbilical.cli.presets import examples, presets, schema
+from umbilical.cli.reproduce import reproduce
+from umbilical.cli.run import run
+from umbilical.cli.show import compare, show
+from umbilical.cli.snap import snap
+from umbilical.cli.sweep import member, sweep
+from umbilical.cli.tune import tune
+from umbilical.cli.verify import verify
+from umbilical.cli.warm_up import warm_up
 from umbilical.errors import OutputError, UmbilicalError
 
 # typer brings its own copy of click and exports only this child of click's UsageError.
@@ -52,35 +50,35 @@ app = typer.Typer(
 )
 
 for command in (
-    running.run,
-    sweeping.sweep,
-    sweeping.member,
-    tuning.tune,
-    reading.show,
-    reading.compare,
-    exporting.export,
-    drawing.plot,
-    animating.animate,
-    certifying.certify,
-    reproducing.reproduce,
-    judging.margins,
-    designing.design,
-    operating.operate,
-    operating.lower,
-    snapping.snap,
-    listing.presets,
-    listing.examples,
-    listing.schema,
-    doctoring.doctor,
-    warming.warm_up,
-    verifying.verify,
+    run,
+    sweep,
+    member,
+    tune,
+    show,
+    compare,
+    export,
+    plot,
+    animate,
+    certify,
+    reproduce,
+    margins,
+    design,
+    operate,
+    lower,
+    snap,
+    presets,
+    examples,
+    schema,
+    doctor,
+    warm_up,
+    verify,
 ):
     app.command()(command)
 
 
 def _version(wanted: bool) -> None:
     if wanted:
-        say(f"umbilical {__version__}")
+        print_result(f"umbilical {__version__}")
         raise typer.Exit
 
 
@@ -116,7 +114,7 @@ def run_command(given: list[str], signals: Sequence[int] = ()) -> int:
         return 4
     except (Exception, KeyboardInterrupt) as error:
         if "--debug" in given:
-            tell("".join(traceback.format_exception(error)))
+            report("".join(traceback.format_exception(error)))
         return _explain(KeyboardInterrupt() if signals else error, as_json="--json" in given)
 
 
@@ -133,10 +131,10 @@ def _invoke(words: list[str]) -> int:
 def _explain(error: BaseException, *, as_json: bool) -> int:
     """One text on stderr, one object on stdout if that was wanted; returns the exit code."""
     code, text = _verdict(error)
-    tell(text)
+    report(text)
     if as_json:
         with suppress(OutputError, BrokenPipeError):  # which is perhaps the very error
-            say_json(refusal(error, text, code))
+            print_json(refusal(error, text, code))
     return code
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from umbilical.cli.speech import say, say_json
+from umbilical.cli.output import print_json, print_result
 from umbilical.faces.conclusion import Conclusion
 from umbilical.result import ResultFaces
 
@@ -33,10 +33,10 @@ def conclude(
     """
     if as_json:
         verdict = conclusion.document()  # first, and not to be contradicted by what a result says of itself
-        say_json({**verdict, "files": dict(files or {}), **document(), **verdict})
+        print_json({**verdict, "files": dict(files or {}), **document(), **verdict})
     else:
         written = [f"  {role}: {path}" for role, path in (files or {}).items()]
-        say("\n".join(filter(None, [conclusion.headline, text(), *written])))
+        print_result("\n".join(filter(None, [conclusion.headline, text(), *written])))
     return conclusion.exit_code
 
 

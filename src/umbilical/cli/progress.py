@@ -8,8 +8,7 @@ from contextlib import contextmanager
 from time import perf_counter
 from typing import TYPE_CHECKING
 
-from umbilical.cli.terminal import printable
-from umbilical.cli.terminal import report as tell
+from umbilical.cli.terminal import printable, report
 
 if TYPE_CHECKING:
     from umbilical.control.contract import Controller
@@ -61,7 +60,7 @@ class _Lines:
     def move(self, share: float, passed: float) -> None:
         if passed >= self._next:
             self._next = 2.0 * passed
-            tell(f"{self._what}: {share:.0%} after {passed:.0f} s")
+            report(f"{self._what}: {share:.0%} after {passed:.0f} s")
 
     def close(self) -> None:
         pass

@@ -106,8 +106,8 @@ def _chosen(columns: Columns, choice: Choice, key: str) -> tuple[str, str] | Pro
             reason = "the columns of a file are taken by name" if name else "the file has several columns"
             fitting = [other for other in others if factor(columns.units[other], choice.wanted) is not None]
             example = columns.names[0] if asked == "across" else (fitting or others or [across])[0]
-            cure = f'e.g. file = {{ name = "{columns.origin}", {asked} = "{example}" }}'
-            return Problem(f"{key}.{asked}", found, f"one of {there}", reason, cure)
+            fix = f'e.g. file = {{ name = "{columns.origin}", {asked} = "{example}" }}'
+            return Problem(f"{key}.{asked}", found, f"one of {there}", reason, fix)
     return across, str(value)
 
 
@@ -120,8 +120,8 @@ def _scales(columns: Columns, choice: Choice, names: tuple[str, str], key: str) 
         units = ", ".join(known(wanted))
         if scale is None:
             found = f'"{unit}" of column {name}' if unit else f"none, for column {name}"
-            cure = f'write it in the header, as in "{name} [{wanted}]", or {option} = "{wanted}"'
-            yield Problem(f"{key}.{option}", found, f"one of {units}", "numbers without their unit are guesses", cure)
+            fix = f'write it in the header, as in "{name} [{wanted}]", or {option} = "{wanted}"'
+            yield Problem(f"{key}.{option}", found, f"one of {units}", "numbers without their unit are guesses", fix)
         else:
             yield scale
 

@@ -59,6 +59,6 @@ def _taken(columns: Columns, name: str, want: Wanted, key: str) -> np.ndarray | 
     if scale is None:
         units = ", ".join(known(want.unit))
         shown = f'"{unit}" of column {name}' if unit else f"none, for column {name}"
-        cure = f'write it in the header, as in "{name} [{want.unit}]"'
-        return Problem(f"{key}.{want.name}", shown, f"one of {units}", "numbers without their unit are guesses", cure)
+        fix = f'write it in the header, as in "{name} [{want.unit}]"'
+        return Problem(f"{key}.{want.name}", shown, f"one of {units}", "numbers without their unit are guesses", fix)
     return values * scale

@@ -67,7 +67,7 @@ def make_sensor_state(sensors: Sensors, readings: Readings) -> SensorState:
     return SensorState(np.zeros((depth, width)), np.zeros(width), np.zeros(1, dtype=np.int64), tip, motors)
 
 
-class Dice:
+class NoiseSource:
     """Draws of noise and drop-outs, in the order of the updates: they do not depend on how a run is cut up."""
 
     def __init__(self, sensors: Sensors, seed: int | tuple[int, int]) -> None:

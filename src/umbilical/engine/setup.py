@@ -10,7 +10,7 @@ from umbilical.control.contract import make_decision, make_readings
 from umbilical.engine import loop
 from umbilical.engine.recording import make_log, make_tally
 from umbilical.engine.schedule import Clock, make_clock
-from umbilical.engine.sensing import Dice, make_sensor_state, make_sensors
+from umbilical.engine.sensing import NoiseSource, make_sensor_state, make_sensors
 from umbilical.engine.stepping import make_plant, make_plant_state
 from umbilical.plant import faults
 from umbilical.plant.checks.sizes import check_memory
@@ -27,7 +27,7 @@ class Setup(NamedTuple):
     clock: Clock
     world: loop.World
     record: loop.Record
-    dice: Dice
+    dice: NoiseSource
     settings: cascade.CascadeSettings
     memory: cascade.CascadeState
 
@@ -64,7 +64,7 @@ def set_up(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Se
         make_decision(motors),
     )
     settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
-    return Setup(clock, world, _record(scenario, clock, stored), Dice(sensors, scenario.seed), settings, memory)
+    return Setup(clock, world, _record(scenario, clock, stored), NoiseSource(sensors, scenario.seed), settings, memory)
 
 
 def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:

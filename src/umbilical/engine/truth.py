@@ -44,8 +44,8 @@ def truth(episode: Episode) -> Truth:
     True
     """
     if not isinstance(episode.model, StringModel):
-        reason, cure = "the state of a rope is in space", 'set model = "string"'
-        raise ScenarioError([Problem("model", episode.scenario.model, "string", reason, cure)], "truth")
+        reason, fix = "the state of a rope is in space", 'set model = "string"'
+        raise ScenarioError([Problem("model", episode.scenario.model, "string", reason, fix)], "truth")
     state = episode.model.state
     ends, outside = state.now[0].ends, state.now[0].outside
     slopes = state.blocks[PRESENT]

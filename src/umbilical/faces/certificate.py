@@ -53,10 +53,10 @@ def text(certificate: Certificate, audit: Audit | None = None) -> str:
 
 def _report(certificate: Certificate) -> Iterator[str]:
     """What to do, the conditions, what follows, and what it does not speak about."""
-    for cure in certificate.cures:
-        yield f"  cure: {cure.cure} ({cure.key} = {cure.value}; {cure.bound})"
-    if not certificate.holds and not certificate.cures:
-        yield "  no cure was found: none of the slope gains and slower winches that were tried is certified"
+    for fix in certificate.fixes:
+        yield f"  fix: {fix.fix} ({fix.key} = {fix.value}; {fix.bound})"
+    if not certificate.holds and not certificate.fixes:
+        yield "  no fix was found: none of the slope gains and slower winches that were tried is certified"
     yield table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
     yield ""
     yield table(
@@ -164,7 +164,7 @@ def document(certificate: Certificate, audit: Audit | None = None) -> dict[str, 
         "loads": certificate.loads._asdict(),
         "bounds": bounds._asdict() if bounds else {},
         "proof": certificate.proof._asdict(),
-        "cures": [asdict(cure) for cure in certificate.cures],
+        "fixes": [asdict(fix) for fix in certificate.fixes],
         "limits": certificate.limits,
         "audit": _audit_document(audit) if audit else None,
     }

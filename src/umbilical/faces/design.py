@@ -11,7 +11,7 @@ from umbilical.faces.text import table
 
 if TYPE_CHECKING:
     from umbilical.synthesis.design import Design
-    from umbilical.synthesis.rounds import Side
+    from umbilical.synthesis.iterate import Side
 
 NOT_ASKED = "the engine's grids; `umbilical margins` of these gains asks them, and may leave the margins unresolved"
 

@@ -77,10 +77,10 @@ def c_files(scenario: Scenario, *, prefix: str = _PREFIX, hold: float | None = N
     check_known(scenario)
     _check_options(scenario, prefix, HOLD if hold is None else hold)
     settings = make_settings(scenario)
-    words = _words(scenario, settings, hold)
+    values = _words(scenario, settings, hold)
     source = template("controller.c")
     used = set(re.findall(r"(?:\.|->)(\w+)", source))
-    words |= _structs(scenario, settings, used) | _vectors(list(vectors(scenario)), used)
+    values |= _structs(scenario, settings, used) | _vectors(list(vectors(scenario)), used)
     texts = {
         "umbilical_controller.h": template("controller.h"),
         "umbilical_controller.c": source,
@@ -88,7 +88,7 @@ def c_files(scenario: Scenario, *, prefix: str = _PREFIX, hold: float | None = N
         "test_vectors.h": template("test_vectors.h"),
         "README.txt": template("README.txt"),
     }
-    return {name: _renamed(fill(text, words), prefix) for name, text in texts.items()}
+    return {name: _renamed(fill(text, values), prefix) for name, text in texts.items()}
 
 
 def template(name: str) -> str:
@@ -96,9 +96,9 @@ def template(name: str) -> str:
     return (resources.files("umbilical.interop") / "templates" / name).read_text(encoding="utf-8")
 
 
-def fill(text: str, words: Mapping[str, str]) -> str:
+def fill(text: str, values: Mapping[str, str]) -> str:
     """A template with every ``@NAME@`` replaced."""
-    return re.sub(r"@([A-Z_]+)@", lambda found: words[found[1]], text)
+    return re.sub(r"@([A-Z_]+)@", lambda found: values[found[1]], text)
 
 
 def _renamed(text: str, prefix: str) -> str:

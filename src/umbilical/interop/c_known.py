@@ -84,5 +84,5 @@ def _records(value: Any, place: str) -> Iterator[tuple[Record, str]]:
         yield from ((part, f"{place}.{i}") for i, part in enumerate(value, 1) if isinstance(part, Record))
 
 
-def _problem(key: str, value: Any, bound: str, cure: str) -> Problem:
-    return Problem(key, str(value), bound, "the C controller does not have it, and would differ", cure)
+def _problem(key: str, value: Any, bound: str, fix: str) -> Problem:
+    return Problem(key, str(value), bound, "the C controller does not have it, and would differ", fix)

@@ -79,8 +79,8 @@ def to_fmu(scenario: Scenario, path: str | os.PathLike[str], *, hold: float | No
         raise OutputError(f"{target}: the name must end with .fmu")
     files.check(target, force=force)
     content = _content(scenario, hold, Path(partner.__file__).parent / "c-code")
-    binary, words = _compiled(content, _identifier(scenario), partner)
-    return Fmu(files.write(target, _packed({**content, **binary}), force=force), words)
+    binary, values = _compiled(content, _identifier(scenario), partner)
+    return Fmu(files.write(target, _packed({**content, **binary}), force=force), values)
 
 
 def _content(scenario: Scenario, hold: float | None, headers: Path) -> dict[str, str]:
@@ -101,14 +101,14 @@ def _content(scenario: Scenario, hold: float | None, headers: Path) -> dict[str,
 def _own_files(scenario: Scenario, guid: str) -> dict[str, str]:
     """What makes an FMU of the controller."""
     inputs, outputs = _inputs(scenario), _outputs(scenario)
-    words = {
+    values = {
         "GUID": guid,
         "HEAD": head(scenario),
         "INPUTS": str(len(inputs)),
         "REALS": "\n".join(f"    case {k}: return &m->{v.expression};" for k, v in enumerate([*inputs, *outputs])),
     }
-    words |= _description(scenario, inputs, outputs)
-    return {name: fill(template(name), words) for name in ("fmu.c", "modelDescription.xml")}
+    values |= _description(scenario, inputs, outputs)
+    return {name: fill(template(name), values) for name in ("fmu.c", "modelDescription.xml")}
 
 
 def _guid(texts: Sequence[str]) -> str:
@@ -176,12 +176,12 @@ def _real(reference: int, variable: Variable, is_input: bool) -> str:
         kind = 'causality="output" variability="discrete" initial="calculated"'
     unit = f" unit={quoteattr(quantity.unit)}" if quantity.unit not in ("", "1") else ""
     start = ' start="0"' if is_input else ""
-    words = f'name={quoteattr(variable.name)} valueReference="{reference}" description={quoteattr(quantity.meaning)}'
-    return f"    <ScalarVariable {words} {kind}><Real{unit}{start}/></ScalarVariable>"
+    values = f'name={quoteattr(variable.name)} valueReference="{reference}" description={quoteattr(quantity.meaning)}'
+    return f"    <ScalarVariable {values} {kind}><Real{unit}{start}/></ScalarVariable>"
 
 
 def _compiled(content: Mapping[str, str], identifier: str, partner: Any) -> tuple[dict[str, bytes], str]:
-    """The shared library for this machine by its place in the archive, and words on it."""
+    """The shared library for this machine by its place in the archive, and what it is."""
     compiler = next((found for name in ("cc", "gcc", "clang") if (found := shutil.which(name))), None)
     if compiler is None:
         return {}, "sources only: this machine has no C compiler; `fmpy compile` adds a binary where there is one"

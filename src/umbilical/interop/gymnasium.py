@@ -339,8 +339,8 @@ def _check(scenario: Scenario, mode: str, thrust: float | None, voltage: float |
     if mode == "voltage" and not driven:
         found.append(Problem("mode", mode, "thrust", "the scenario has no motors to drive", "choose thrust"))
     if mode == "thrust" and driven and scenario.control.motor_loop is None:
-        reason, cure = "nothing turns a thrust into voltages", "add control.motor_loop, or choose voltage"
-        found.append(Problem("mode", mode, "voltage", reason, cure))
+        reason, fix = "nothing turns a thrust into voltages", "add control.motor_loop, or choose voltage"
+        found.append(Problem("mode", mode, "voltage", reason, fix))
     for name, value in (("thrust_scale", thrust), ("voltage_scale", voltage)):
         if value is not None and not 0.0 < value < np.inf:
             found.append(Problem(name, f"{value:g}", "above 0", "an action of 1 stands for it", "leave it out"))

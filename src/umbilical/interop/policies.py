@@ -109,6 +109,6 @@ def _refusal(tip: Tip, scenario: Scenario) -> Problem | None:
     if law.kind == "none":
         return Problem("control.law.kind", law.kind, "a law", "none decides nothing", "use Nothing(env)")
     if cascade.make_settings(scenario).outer.ideal_rates and "tip_velocity" not in seen:
-        reason, cure = "the environment has no sensor of the rates", "observer, or sensors.ideal_velocity = true"
-        return Problem("control.law", "rates of a sensor", "rates of an observer", reason, cure)
+        reason, fix = "the environment has no sensor of the rates", "observer, or sensors.ideal_velocity = true"
+        return Problem("control.law", "rates of a sensor", "rates of an observer", reason, fix)
     return None

@@ -122,10 +122,8 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
         columns = read_columns(Path(source.name), content)
     except FileError as error:
         there = (folder / source.name).exists()
-        cure = (
-            "correct it, or save it as CSV or NetCDF" if there else "names are relative to the folder of the scenario"
-        )
-        yield Problem(f"{key}.name", f'"{source.name}"', "a CSV or NetCDF file", str(error), cure)
+        fix = "correct it, or save it as CSV or NetCDF" if there else "names are relative to the folder of the scenario"
+        yield Problem(f"{key}.name", f'"{source.name}"', "a CSV or NetCDF file", str(error), fix)
         return
     if filled.reader == "rao":
         lists, problems = rao_lists(columns, key)

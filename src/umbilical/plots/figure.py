@@ -148,10 +148,10 @@ def turns(values: np.ndarray) -> np.ndarray:
     return steps[1:][rising[1:] != rising[:-1]]
 
 
-def note(ax: Axes, words: str) -> None:
+def note(ax: Axes, text: str) -> None:
     """A remark inside the axes, below on the left."""
-    if words:
-        ax.text(0.01, 0.02, words, transform=ax.transAxes, fontsize=8, color="#404040", bbox=_PAPER)
+    if text:
+        ax.text(0.01, 0.02, text, transform=ax.transAxes, fontsize=8, color="#404040", bbox=_PAPER)
 
 
 def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
@@ -177,43 +177,43 @@ def mark_events(ax: Axes, run: Run) -> None:
 
     last = float(ax.dataLim.x1)  # of what is shown
     named = fault_words(run)
-    others = {t: words for t, words in named_jumps(run.scenario).items() if 0.0 < t < last and t not in named}
+    others = {t: text for t, text in named_jumps(run.scenario).items() if 0.0 < t < last and t not in named}
     if len(others) <= MANY_JUMPS:
         _mark_jumps(ax, others, last)
-    for t, words in named.items():
+    for t, text in named.items():
         if t < last:
             ax.axvline(t, color=QUIET, linewidth=1.0, linestyle="--")
-            _name(ax, t, words, (3, -2 - 10 * _lines_before(t, named, WORDS_WIDTH * last)), va="top")
+            _name(ax, t, text, (3, -2 - 10 * _lines_before(t, named, WORDS_WIDTH * last)), va="top")
 
 
 def _mark_jumps(ax: Axes, jumps: dict[float, tuple[str, ...]], last: float) -> None:
     """Named upright along their lines; of those close together only the first."""
     free = 0.0
-    for t, words in jumps.items():
+    for t, text in jumps.items():
         ax.axvline(t, color=QUIET, linewidth=0.8, linestyle=":")
         if t >= free:
-            _name(ax, t, ", ".join(words), (2, -2), va="top", rotation=90)
+            _name(ax, t, ", ".join(text), (2, -2), va="top", rotation=90)
             free = t + UPRIGHT_WIDTH * last
 
 
-def _name(ax: Axes, t: float, words: str, offset: tuple[float, float], **how: Any) -> None:
+def _name(ax: Axes, t: float, text: str, offset: tuple[float, float], **how: Any) -> None:
     style: dict[str, Any] = {"fontsize": 8, "color": "#404040", "bbox": _PAPER, "textcoords": "offset points"}
-    ax.annotate(words, (t, 1.0), xycoords=("data", "axes fraction"), xytext=offset, **style, **how)
+    ax.annotate(text, (t, 1.0), xycoords=("data", "axes fraction"), xytext=offset, **style, **how)
 
 
 def _lines_before(t: float, named: dict[float, str], near: float) -> int:
     """Lines of the names that begin shortly before, and that this one must stand below."""
-    return sum(words.count("\n") + 1 for other, words in named.items() if t - near < other < t)
+    return sum(text.count("\n") + 1 for other, text in named.items() if t - near < other < t)
 
 
 def fault_words(run: Run) -> dict[float, str]:
     """What happens to the motors, by instant, s."""
-    words: dict[float, list[str]] = {}
+    text: dict[float, list[str]] = {}
     for fault in run.scenario.faults:
-        words.setdefault(fault.start, []).append(f"motor {fault.motor}: {fault.kind}")
+        text.setdefault(fault.start, []).append(f"motor {fault.motor}: {fault.kind}")
         if fault.end is not None:
-            words.setdefault(fault.end, []).append(f"motor {fault.motor}: healthy")
-    return {t: "\n".join(words[t]) for t in sorted(words)}
+            text.setdefault(fault.end, []).append(f"motor {fault.motor}: healthy")
+    return {t: "\n".join(text[t]) for t in sorted(text)}
 
 
 def at_sigma(run: Run, sigma: float) -> xarray.DataArray:

@@ -86,9 +86,9 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
-        words = f"{arm}\n  over {other}:\n  median {told(found.ratio, 3)}"
+        text = f"{arm}\n  over {other}:\n  median {told(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
-        ax.step(ratio, shares, where="post", color=_colour(colour), label=words, **_dashes(colour))
+        ax.step(ratio, shares, where="post", color=_colour(colour), label=text, **_dashes(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")

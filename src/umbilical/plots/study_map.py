@@ -79,10 +79,10 @@ def plot_map(
         _around_one(found.mean) if over else {"cmap": "viridis", "vmin": 0.0, "vmax": top or _largest(found.mean)}
     )
     picture = ax.pcolormesh(across.edges, up.edges, found.mean.T, **style)
-    words = f"ratio of {metric}" if over else label(metric)
-    words = f"mean of {words}" if found.members > 1 else words
+    text = f"ratio of {metric}" if over else label(metric)
+    text = f"mean of {text}" if found.members > 1 else text
     if bar:
-        scale = as_figure(ax).colorbar(picture, ax=ax, label=words)
+        scale = as_figure(ax).colorbar(picture, ax=ax, label=text)
         if over:
             ticks = _round_ratios(style["norm"].vmax)
             scale.set_ticks([*ticks], labels=[*ticks.values()])
@@ -177,9 +177,9 @@ def _mark_lost(ax: Axes, x: Axis, y: Axis, lost: np.ndarray) -> None:
     """How many runs of a cell did not complete, in percent, where any did not."""
     across, up = (((axis.edges[1:] + axis.edges[:-1]) / 2.0).tolist() for axis in (x, y))
     for column, row in np.argwhere(lost > 0.0):
-        words = f"{100.0 * lost[column, row]:.0f} %\nlost"
+        text = f"{100.0 * lost[column, row]:.0f} %\nlost"
         box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.7, "pad": 0.5}
-        ax.text(across[column], up[row], words, ha="center", va="center", fontsize=6, bbox=box)
+        ax.text(across[column], up[row], text, ha="center", va="center", fontsize=6, bbox=box)
 
 
 def _name_axes(ax: Axes, result: StudyResult, x: Axis, y: Axis) -> None:

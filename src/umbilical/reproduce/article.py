@@ -30,7 +30,7 @@ from umbilical.reproduce.expected import Deviation
 from umbilical.reproduce.experiments import EXPERIMENTS, cell
 from umbilical.reproduce.figures import DOI, PICTURES, SEEN_IN, SOURCE
 from umbilical.reproduce.ledger import Finding, Verdict
-from umbilical.reproduce.points import GRID
+from umbilical.reproduce.map_runs import GRID
 from umbilical.reproduce.reproduction import KINDS, Reproduction
 
 HASH = 16

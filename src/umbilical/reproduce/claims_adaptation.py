@@ -20,9 +20,9 @@ from umbilical.reproduce.ledger import (
     percent,
     short,
 )
-from umbilical.reproduce.points import EXACT
+from umbilical.reproduce.map_runs import EXACT
+from umbilical.reproduce.maps import BOXED, RIM
 from umbilical.reproduce.regions import better, diverged, row, runaways, without_repeats
-from umbilical.reproduce.slices import BOXED, RIM
 from umbilical.run import Run, Status
 
 if TYPE_CHECKING:

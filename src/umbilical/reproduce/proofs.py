@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.analysis.certificate import certify, largest_bounds
-from umbilical.analysis.certificate.cure import best_rate
+from umbilical.analysis.certificate.advice import best_rate
 from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges
 from umbilical.analysis.impedance import hanging_cable
 from umbilical.analysis.margins import judge, usual_lengths, usual_thrust
@@ -54,7 +54,7 @@ def prove(scenario: Scenario) -> Proofs:
     """Everything, for a scenario with the boundary law and a winch that moves."""
     lengths = usual_lengths(scenario)
     still = scenario.replace({"winch": {"law": "constant", "length": lengths[-1]}})
-    ours, fixed = in_order(lambda one: certify(one, cure=False), (scenario, still))
+    ours, fixed = in_order(lambda one: certify(one, fix=False), (scenario, still))
     bounds, cascade = largest_bounds(fixed), judge(scenario, lengths[0])
     return Proofs(
         rate=ours.rate,
@@ -73,7 +73,7 @@ def least_certified(scenario: Scenario) -> float:
     winch = scenario.winch
     loop, motion = loop_of(scenario), sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration))
     found = edge(lambda beta: best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0, CERTIFIED, HALVINGS[0])
-    proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), cure=False).holds
+    proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), fix=False).holds
     return found if proved else float("nan")
 
 

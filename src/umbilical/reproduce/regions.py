@@ -10,9 +10,9 @@ import numpy as np
 
 from umbilical.reproduce.experiments import ARMS, GRIDS, OBSERVERS
 from umbilical.reproduce.ledger import Edge, Kind, Number, percent, short
-from umbilical.reproduce.points import GRID, Changes, Point, gain_point, run_points
-from umbilical.reproduce.slices import GAIN_CASES, GAINS
-from umbilical.reproduce.work import Progress
+from umbilical.reproduce.map_runs import GRID, Changes, Point, gain_point, run_points
+from umbilical.reproduce.maps import GAIN_CASES, GAINS
+from umbilical.reproduce.progress import Progress
 
 if TYPE_CHECKING:
     import xarray

@@ -18,11 +18,11 @@ from umbilical.reproduce.claims import judge
 from umbilical.reproduce.experiments import EXPERIMENTS, Runs, cell
 from umbilical.reproduce.figures import PICTURES, Picture, needed
 from umbilical.reproduce.ledger import Evidence, Finding
+from umbilical.reproduce.maps import GAIN, MAPS, NAMES, compute_maps
+from umbilical.reproduce.progress import Progress, parts
 from umbilical.reproduce.proofs import prove
 from umbilical.reproduce.regions import edges
-from umbilical.reproduce.slices import GAIN, MAPS, NAMES, compute_slices
-from umbilical.reproduce.tabular import to_csv
-from umbilical.reproduce.work import Progress, parts
+from umbilical.reproduce.tables import to_csv
 from umbilical.result import ResultFaces
 from umbilical.studies.engines import in_order, worker_processes
 
@@ -104,7 +104,7 @@ def reproduce(
     shares = [8.0, 3.0 + 12.0 * sum(name in MAPS for name in scans) if scans else 0.0, 0.0 if names else 2.0, 10.0]
     running, scanning, edging, drawing = parts(progress, shares)
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
-    found = compute_slices(scans, scanning)
+    found = compute_maps(scans, scanning)
     findings = () if names else judge(evidence(runs, found, edging))
     return Reproduction(runs, found, show_all(pictures, runs, found, processes, drawing), findings)
 

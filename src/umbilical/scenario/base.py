@@ -34,7 +34,7 @@ def quantity(
     lt: float | None = None,
     le: float | None = None,
     reason: str = "",
-    cure: str = "",
+    fix: str = "",
 ) -> Any:
     """A field whose unit, symbol and meaning come from the table of words.
 
@@ -43,27 +43,27 @@ def quantity(
         default: as for a pydantic field; omitted, the key is required.
         gt, ge, lt, le: bounds; without an upper or lower one, :data:`LARGEST` stands in.
         reason: why the bound is there, shown when it is broken.
-        cure: what to do when it is broken.
+        fix: what to do when it is broken.
     """
     if lt is None and le is None:
         le = LARGEST
     if gt is None and ge is None:
         ge = -LARGEST
-    return Field(default, gt=gt, ge=ge, lt=lt, le=le, **words(name, reason, cure))
+    return Field(default, gt=gt, ge=ge, lt=lt, le=le, **described(name, reason, fix))
 
 
-def words(name: str, reason: str = "", cure: str = "") -> Any:
+def described(name: str, reason: str = "", fix: str = "") -> Any:
     """What the table of words says about a name, as arguments of a pydantic field; as for :func:`quantity`."""
     word = PARAMETERS[name]
-    extra = {"unit": word.unit, "symbol": word.symbol, "source": word.source, "reason": reason, "cure": cure}
+    extra = {"unit": word.unit, "symbol": word.symbol, "source": word.source, "reason": reason, "fix": fix}
     return {"description": word.meaning, "json_schema_extra": extra}
 
 
 def measured(
-    unit: str, meaning: str, default: Any = ..., *, reason: str = "", cure: str = "", source: str = "", **bounds: float
+    unit: str, meaning: str, default: Any = ..., *, reason: str = "", fix: str = "", source: str = "", **bounds: float
 ) -> Any:
     """A field of a number with its unit, meaning and bounds (``gt``, ``ge``, ``lt``, ``le``)."""
-    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "cure": cure}
+    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "fix": fix}
     limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
     return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]
 

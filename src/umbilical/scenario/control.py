@@ -6,11 +6,11 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field
 
-from umbilical.scenario.base import Number, Record, quantity, words
+from umbilical.scenario.base import Number, Record, described, quantity
 from umbilical.scenario.hardware import Motor
 
-_POSITIVE = {"gt": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "give a positive gain"}
-_NOT_NEGATIVE = {"ge": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "cure": "0 or more"}
+_POSITIVE = {"gt": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "fix": "give a positive gain"}
+_NOT_NEGATIVE = {"ge": 0.0, "reason": "a gain of the wrong sign drives the loop apart", "fix": "0 or more"}
 
 
 class Law(Record):
@@ -92,7 +92,7 @@ class BoundaryLaw(Law):
     station_gain: float | None = quantity("station_gain", None, **_NOT_NEGATIVE)
     station: float | None = quantity("station", None)
     washout_time: float | None = quantity(
-        "washout_time", None, gt=0.0, le=1e6, reason="slower than the first mode", cure="seconds, e.g. 120"
+        "washout_time", None, gt=0.0, le=1e6, reason="slower than the first mode", fix="seconds, e.g. 120"
     )
     drag_feedforward: bool | None = Field(
         default=None, description="meet the drag of the ROV's own motion before the observer knows of it"
@@ -121,17 +121,17 @@ class HighGainObserver(Record):
     """Eq. (17) or (19): differentiates one measured signal."""
 
     time_constant: float = quantity(
-        "observer_time", gt=0.0, le=100.0, reason="the observer differentiates over it", cure="seconds, e.g. 0.005"
+        "observer_time", gt=0.0, le=100.0, reason="the observer differentiates over it", fix="seconds, e.g. 0.005"
     )
-    damping: float = quantity("observer_damping", gt=0.0, le=100.0, reason="it must decay", cure="2 is critical")
+    damping: float = quantity("observer_damping", gt=0.0, le=100.0, reason="it must decay", fix="2 is critical")
 
 
 class DisturbanceObserver(Record):
     """Eq. (21): estimates the force on the ROV that the law does not know."""
 
     enabled: bool = Field(default=True, description="false: estimate nothing, D^ = 0")
-    gain: float = quantity("disturbance_gain", gt=0.0, le=1e6, reason="it is a rate of decay", cure="e.g. 5 1/s")
-    coupling: float = quantity("disturbance_coupling", gt=0.0, reason="it weighs u_a in V3", cure="1 is the preset")
+    gain: float = quantity("disturbance_gain", gt=0.0, le=1e6, reason="it is a rate of decay", fix="e.g. 5 1/s")
+    coupling: float = quantity("disturbance_coupling", gt=0.0, reason="it weighs u_a in V3", fix="1 is the preset")
 
 
 class KnownFactors(Record):
@@ -144,9 +144,9 @@ class AdaptiveAllocation(Record):
     """Fault control, eqs. (23) and (27), with an optional box that kappa is projected onto."""
 
     method: Literal["adaptive"]
-    rates: tuple[Number, ...] = Field(min_length=2, **words("adaptation_rate"))
-    leak: float = quantity("adaptation_leak", ge=0.0, reason="a negative leak grows", cure="e.g. 1e-3")
-    initial: tuple[Number, ...] = Field(min_length=2, **words("kappa_initial"))
+    rates: tuple[Number, ...] = Field(min_length=2, **described("adaptation_rate"))
+    leak: float = quantity("adaptation_leak", ge=0.0, reason="a negative leak grows", fix="e.g. 1e-3")
+    initial: tuple[Number, ...] = Field(min_length=2, **described("kappa_initial"))
     lower: tuple[Number, ...] | None = Field(
         default=None, description="lower corner of the box kappa is projected onto"
     )
@@ -164,15 +164,15 @@ class MotorLoop(Record):
     speed_gain: float = quantity("speed_gain", **_POSITIVE)
     current_gain: float = quantity("current_gain", **_POSITIVE)
     robust_factor: float = quantity(
-        "robust_factor", ge=1.0, le=100.0, reason="the proof needs more than 1", cure="e.g. 1.5"
+        "robust_factor", ge=1.0, le=100.0, reason="the proof needs more than 1", fix="e.g. 1.5"
     )
-    speed_width: float = quantity("speed_width", gt=0.0, reason="it softens sgn(e1)", cure="e.g. 0.1 rad/s")
-    current_width: float = quantity("current_width", gt=0.0, reason="it softens sgn(e2)", cure="e.g. 2 rad/s2")
+    speed_width: float = quantity("speed_width", gt=0.0, reason="it softens sgn(e1)", fix="e.g. 0.1 rad/s")
+    current_width: float = quantity("current_width", gt=0.0, reason="it softens sgn(e2)", fix="e.g. 2 rad/s2")
     speed_bound: float = quantity("speed_bound", **_NOT_NEGATIVE)
     current_bound: float = quantity("current_bound", **_NOT_NEGATIVE)
-    observer_gain: float = quantity("motor_observer_gain", gt=0.0, reason="a rate of decay", cure="e.g. 100 1/s")
-    filter_frequency: float = quantity("filter_frequency", gt=0.0, reason="poles of the filter", cure="e.g. 200 rad/s")
-    root_width: float = quantity("root_width", 1e-3, gt=0.0, reason="the root is singular at 0", cure="e.g. 1e-3")
+    observer_gain: float = quantity("motor_observer_gain", gt=0.0, reason="a rate of decay", fix="e.g. 100 1/s")
+    filter_frequency: float = quantity("filter_frequency", gt=0.0, reason="poles of the filter", fix="e.g. 200 rad/s")
+    root_width: float = quantity("root_width", 1e-3, gt=0.0, reason="the root is singular at 0", fix="e.g. 1e-3")
 
 
 class Nominal(Record):
@@ -180,7 +180,7 @@ class Nominal(Record):
 
     payload_mass: float | None = quantity("payload_mass", None, gt=0.0, le=1e9, reason="it divides")
     payload_wet_weight: float | None = quantity("wet_weight", None, gt=0.0, reason="as the truth")
-    payload_damping: float | None = quantity("payload_damping", None, ge=0.0, reason="as the truth", cure="0 or more")
+    payload_damping: float | None = quantity("payload_damping", None, ge=0.0, reason="as the truth", fix="0 or more")
     gravity: float | None = quantity("gravity", None, gt=0.0, le=100.0, reason="as the truth")
     thrust_coefficients: tuple[Number, ...] | None = Field(
         default=None, description="believed K_T of each motor, N s2/rad2"
@@ -192,10 +192,10 @@ class Control(Record):
     """The whole controller. Sections a law does not use may be left out."""
 
     period: float = quantity(
-        "control_period", gt=0.0, le=10.0, reason="one update per period", cure="seconds, e.g. 1e-3"
+        "control_period", gt=0.0, le=10.0, reason="one update per period", fix="seconds, e.g. 1e-3"
     )
     outer_period: float | None = quantity(
-        "outer_period", None, gt=0.0, le=10.0, reason="period of the outer law", cure="a multiple of the period"
+        "outer_period", None, gt=0.0, le=10.0, reason="period of the outer law", fix="a multiple of the period"
     )
     law: OuterLaw
     velocity_observer: HighGainObserver | None = None

@@ -30,8 +30,8 @@ class GaussianProfile(Record):
     """``exp(-((sigma - center)/width)^2)``."""
 
     shape: Literal["gaussian"]
-    center: float = quantity("profile_center", ge=0.0, le=1.0, reason="sigma = x/l", cure="0 is the vessel, 1 the ROV")
-    width: float = quantity("profile_width", gt=0.0, le=10.0, reason="it divides sigma", cure="a share of the length")
+    center: float = quantity("profile_center", ge=0.0, le=1.0, reason="sigma = x/l", fix="0 is the vessel, 1 the ROV")
+    width: float = quantity("profile_width", gt=0.0, le=10.0, reason="it divides sigma", fix="a share of the length")
 
 
 class TableProfile(Record):
@@ -56,7 +56,7 @@ class CableLoad(Record):
 class Environment(Record):
     """Gravity, loads and the vessel."""
 
-    gravity: float = quantity("gravity", gt=0.0, le=100.0, reason="the cable hangs", cure="9.81 m/s2 on earth")
+    gravity: float = quantity("gravity", gt=0.0, le=100.0, reason="the cable hangs", fix="9.81 m/s2 on earth")
     payload_force: Signal = Field(
         default=(), description="external force on the ROV d(t)", json_schema_extra={"unit": "N"}
     )
@@ -70,7 +70,7 @@ class Environment(Record):
         0.0,
         ge=0.0,
         reason="the vessel's motion is faded in over it",
-        cure="0 for none, else a few seconds",
+        fix="0 for none, else a few seconds",
     )
     vessel_heave: Signal | None = Field(
         default=None, description="heave of the sheave, up, faded in likewise", json_schema_extra={"unit": "m"}
@@ -90,7 +90,7 @@ class SineShape(Record):
     shape: Literal["sine"]
     amplitude: float = quantity("shape_amplitude")
     half_waves: float = quantity(
-        "shape_half_waves", 1.0, gt=0.0, le=100.0, reason="half waves along the cable", cure="1, 1.5, 2 ..."
+        "shape_half_waves", 1.0, gt=0.0, le=100.0, reason="half waves along the cable", fix="1, 1.5, 2 ..."
     )
 
 
@@ -100,7 +100,7 @@ class GaussianShape(Record):
     shape: Literal["gaussian"]
     amplitude: float = quantity("shape_amplitude")
     distance: float = quantity(
-        "shape_distance", ge=0.0, le=2e4, reason="metres up from the ROV", cure="between 0 and the length"
+        "shape_distance", ge=0.0, le=2e4, reason="metres up from the ROV", fix="between 0 and the length"
     )
     width: float = quantity("shape_width", gt=0.0, le=2e4, reason="it divides the distance")
 

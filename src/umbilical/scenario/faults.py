@@ -17,16 +17,16 @@ _SHARE = {
     "ge": 0.0,
     "le": 1.0,
     "reason": "it is the share still delivered: 0 nothing, 1 healthy",
-    "cure": "a number from 0 to 1",
+    "fix": "a number from 0 to 1",
 }
 
 
 class _Fault(Record):
     motor: int = Field(ge=1, le=1000, description="number of the motor, from 1")
     target: Literal["thrust", "voltage"] = Field(default="thrust", description="what it spoils")
-    start: float = quantity("fault_start", ge=0.0, reason="the run starts at 0", cure="0 for a fault from the start")
+    start: float = quantity("fault_start", ge=0.0, reason="the run starts at 0", fix="0 for a fault from the start")
     end: float | None = quantity(
-        "fault_end", None, gt=0.0, reason="recovery follows failure", cure="leave out for a fault that stays"
+        "fault_end", None, gt=0.0, reason="recovery follows failure", fix="leave out for a fault that stays"
     )
 
 
@@ -55,7 +55,7 @@ class Ramp(_Fault):
 
     kind: Literal["ramp"]
     effectiveness: float = quantity("effectiveness", **_SHARE)
-    over: float = quantity("fault_ramp", gt=0.0, reason="it divides the time", cure="seconds the ramp takes")
+    over: float = quantity("fault_ramp", gt=0.0, reason="it divides the time", fix="seconds the ramp takes")
 
 
 class Intermittent(_Fault):
@@ -63,8 +63,8 @@ class Intermittent(_Fault):
 
     kind: Literal["intermittent"]
     effectiveness: float = quantity("effectiveness", 0.0, **_SHARE)
-    cycle: float = quantity("fault_cycle", gt=0.0, reason="it divides the time", cure="seconds from failure to failure")
-    duty: float = quantity("duty", gt=0.0, lt=1.0, reason="a share of the cycle", cure="between 0 and 1")
+    cycle: float = quantity("fault_cycle", gt=0.0, reason="it divides the time", fix="seconds from failure to failure")
+    duty: float = quantity("duty", gt=0.0, lt=1.0, reason="a share of the cycle", fix="between 0 and 1")
 
 
 Fault = Annotated[Partial | Dead | Stuck | Ramp | Intermittent, Field(discriminator="kind")]

@@ -90,7 +90,7 @@ def _entry(annotation: Any, of: FieldInfo | None) -> FieldInfo:
 
 
 def word(field: FieldInfo | None, name: str) -> str:
-    """A word attached to a field: its unit, symbol, source, reason or cure; empty where there is none."""
+    """A word attached to a field: its unit, symbol, source, reason or fix; empty where there is none."""
     extra = field.json_schema_extra if field else None
     return str(extra.get(name, "")) if isinstance(extra, dict) else ""
 

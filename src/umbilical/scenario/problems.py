@@ -1,4 +1,4 @@
-"""From pydantic's complaints to ours: key, value with unit, bound, reason, cure."""
+"""From pydantic's complaints to ours: key, value with unit, bound, reason, fix."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _plain(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], reco
         shown(complaint["input"], field),
         bound,
         word(field, "reason") or (field.description if field else "") or "it must be of the right kind",
-        word(field, "cure") or f"give {bound}{_keys(locate(record, complaint['loc']).annotation)}",
+        word(field, "fix") or f"give {bound}{_keys(locate(record, complaint['loc']).annotation)}",
     )
 
 
@@ -142,7 +142,7 @@ def _unknown(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], re
 def _missing(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
     meaning = (field.description if field else "") or "a part every scenario has"
     bound = bounds(field) or "required"
-    return Problem(key, "missing", bound, f"required: {meaning}", word(field, "cure") or f"add {key}")
+    return Problem(key, "missing", bound, f"required: {meaning}", word(field, "fix") or f"add {key}")
 
 
 def _unknown_kind(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from umbilical.scenario.base import Number, Record, words
+from umbilical.scenario.base import Number, Record, described
 from umbilical.scenario.signals import Signal
 
 
@@ -26,4 +26,4 @@ class Rope(Record):
     vessel_across: Signal = _signal("motion of the vessel in the direction y", "m")
     force_across: Signal = _signal("external force on the body in the direction y", "N")
     force_up: Signal = _signal("external force on the body in the direction z", "N")
-    thrust_directions: tuple[Number, ...] | None = Field(default=None, **words("thrust_direction"))
+    thrust_directions: tuple[Number, ...] | None = Field(default=None, **described("thrust_direction"))

@@ -41,10 +41,10 @@ class Grid(Record):
         ge=1e-6,
         le=0.1,
         reason="below it the step's own round-off counts",
-        cure="1e-3",
+        fix="1e-3",
     )
     step: float = quantity(
-        "plant_step", 1e-3, gt=0.0, le=1.0, reason="the plant divides a control period", cure="1e-3 s"
+        "plant_step", 1e-3, gt=0.0, le=1.0, reason="the plant divides a control period", fix="1e-3 s"
     )
 
     @model_validator(mode="before")
@@ -60,7 +60,7 @@ class Output(Record):
     """What is stored. It never changes what is simulated."""
 
     interval: float = quantity(
-        "output_interval", 0.05, gt=0.0, reason="a multiple of the control period", cure="e.g. 0.05 s"
+        "output_interval", 0.05, gt=0.0, reason="a multiple of the control period", fix="e.g. 0.05 s"
     )
 
 

@@ -10,11 +10,11 @@ from umbilical.scenario.base import Record, quantity
 class Channel(Record):
     """Errors of one sensor, applied in this order: latency, bias, noise, resolution, drop-out."""
 
-    noise: float = quantity("sensor_noise", 0.0, ge=0.0, reason="a standard deviation", cure="0 for none")
+    noise: float = quantity("sensor_noise", 0.0, ge=0.0, reason="a standard deviation", fix="0 for none")
     bias: float = quantity("sensor_bias", 0.0)
-    resolution: float = quantity("sensor_resolution", 0.0, ge=0.0, reason="a step", cure="0 for none")
+    resolution: float = quantity("sensor_resolution", 0.0, ge=0.0, reason="a step", fix="0 for none")
     latency: float = quantity("sensor_latency", 0.0, ge=0.0, le=10.0, reason="a reading cannot come early")
-    dropout: float = quantity("sensor_dropout", 0.0, ge=0.0, lt=1.0, reason="a probability", cure="below 1")
+    dropout: float = quantity("sensor_dropout", 0.0, ge=0.0, lt=1.0, reason="a probability", fix="below 1")
 
 
 class Sensors(Record):

@@ -22,7 +22,7 @@ class BoxShip(Record):
     breadth: float = measured("m", "breadth at the waterline", gt=0.0, le=100.0, reason="a ship")
     draught: float = measured("m", "draught", gt=0.0, le=30.0, reason="a ship")
     block_coefficient: float = measured(
-        "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", cure="0.5 to 0.9"
+        "1", "displaced volume over length, breadth, draught", gt=0.3, le=1.0, reason="of a ship", fix="0.5 to 0.9"
     )
     sheave_forward: float = _FORWARD
     sheave_port: float = _PORT

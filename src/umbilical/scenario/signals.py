@@ -22,7 +22,7 @@ class Sine(Record):
 
     kind: Literal["sine"]
     amplitude: float = quantity("signal_value")
-    frequency: float = quantity("signal_frequency", ge=0.0, reason="a negative frequency is a phase", cure="use phase")
+    frequency: float = quantity("signal_frequency", ge=0.0, reason="a negative frequency is a phase", fix="use phase")
     phase: float = quantity("signal_phase", 0.0)
 
 
@@ -32,8 +32,8 @@ class Bell(Record):
     kind: Literal["bell"]
     amplitude: float = quantity("signal_value")
     center: float = quantity("signal_time")
-    width: float = quantity("signal_width", gt=0.0, reason="it divides the time", cure="give a positive width")
-    exponent: float = quantity("signal_exponent", gt=0.0, le=100.0, reason="it is half a power", cure="2 is usual")
+    width: float = quantity("signal_width", gt=0.0, reason="it divides the time", fix="give a positive width")
+    exponent: float = quantity("signal_exponent", gt=0.0, le=100.0, reason="it is half a power", fix="2 is usual")
 
 
 class Step(Record):
@@ -42,7 +42,7 @@ class Step(Record):
     kind: Literal["step"]
     value: float = quantity("signal_value")
     time: float = quantity(
-        "signal_time", ge=0.0, reason="the run starts at 0", cure="use a constant for a step at the start"
+        "signal_time", ge=0.0, reason="the run starts at 0", fix="use a constant for a step at the start"
     )
 
 
@@ -51,8 +51,8 @@ class Pulse(Record):
 
     kind: Literal["pulse"]
     value: float = quantity("signal_value")
-    start: float = quantity("signal_time", ge=0.0, reason="the run starts at 0", cure="start the pulse at 0 or later")
-    end: float = quantity("signal_time", gt=0.0, reason="the run starts at 0", cure="end the pulse after its start")
+    start: float = quantity("signal_time", ge=0.0, reason="the run starts at 0", fix="start the pulse at 0 or later")
+    end: float = quantity("signal_time", gt=0.0, reason="the run starts at 0", fix="end the pulse after its start")
 
 
 class Table(Record):

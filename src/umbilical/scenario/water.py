@@ -7,23 +7,23 @@ from pydantic import Field
 from umbilical.scenario.base import Number, Record, quantity
 from umbilical.scenario.signals import Signal
 
-_DRAGS = {"ge": 0.0, "reason": "drag brakes", "cure": "0 for none"}
-_MOVES_ALONG = {"ge": 0.0, "le": 1e9, "reason": "water moves along", "cure": "0 for none"}
+_DRAGS = {"ge": 0.0, "reason": "drag brakes", "fix": "0 for none"}
+_MOVES_ALONG = {"ge": 0.0, "le": 1e9, "reason": "water moves along", "fix": "0 for none"}
 
 
 class CableInWater(Record):
     """What water does to a metre of cable, by Morison's formula."""
 
     diameter: float = quantity(
-        "cable_diameter", gt=0.0, le=0.5, reason="no umbilical is half a metre thick", cure="metres, not millimetres"
+        "cable_diameter", gt=0.0, le=0.5, reason="no umbilical is half a metre thick", fix="metres, not millimetres"
     )
-    normal_drag: float = quantity("normal_drag", 1.2, ge=0.0, le=10.0, reason="drag brakes", cure="0.8 to 2, 1.2 usual")
+    normal_drag: float = quantity("normal_drag", 1.2, ge=0.0, le=10.0, reason="drag brakes", fix="0.8 to 2, 1.2 usual")
     tangential_drag: float = quantity(
-        "tangential_drag", 0.01, ge=0.0, le=1.0, reason="drag brakes", cure="about 0.01, over the circumference"
+        "tangential_drag", 0.01, ge=0.0, le=1.0, reason="drag brakes", fix="about 0.01, over the circumference"
     )
-    added_mass: float = quantity("added_mass", 1.0, ge=0.0, le=5.0, reason="water moves along", cure="1 for a cylinder")
+    added_mass: float = quantity("added_mass", 1.0, ge=0.0, le=5.0, reason="water moves along", fix="1 for a cylinder")
     strumming: float = quantity(
-        "strumming", 0.0, ge=0.0, le=2.0, reason="an amplitude over the diameter", cure="0 for none, up to about 1"
+        "strumming", 0.0, ge=0.0, le=2.0, reason="an amplitude over the diameter", fix="0 for none, up to about 1"
     )
 
 
@@ -58,5 +58,5 @@ class Current(Record):
 class Water(Record):
     """The water."""
 
-    density: float = quantity("water_density", 1025.0, gt=0.0, le=2e4, reason="a density", cure="1025 kg/m3 at sea")
+    density: float = quantity("water_density", 1025.0, gt=0.0, le=2e4, reason="a density", fix="1025 kg/m3 at sea")
     current: Current | None = None

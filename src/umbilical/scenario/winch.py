@@ -13,7 +13,7 @@ _SHORTEST = {
     "ge": 1.0,
     "le": 2e4,
     "reason": "a cable under 1 m is no string in transverse vibration, one over 20 km is a slip of the unit",
-    "cure": "lengths are in metres",
+    "fix": "lengths are in metres",
 }
 
 
@@ -41,10 +41,8 @@ class Quintic(Record):
     law: Literal["quintic"]
     start_length: float = quantity("winch_start_length", **_SHORTEST)
     end_length: float = quantity("winch_end_length", **_SHORTEST)
-    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
-    duration: float = quantity(
-        "winch_duration", gt=0.0, reason="it divides the time", cure="how long the winch runs, s"
-    )
+    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", fix="0 or later")
+    duration: float = quantity("winch_duration", gt=0.0, reason="it divides the time", fix="how long the winch runs, s")
 
 
 class Trapezoid(Record):
@@ -55,7 +53,7 @@ class Trapezoid(Record):
     end_length: float = quantity("winch_end_length", **_SHORTEST)
     top_speed: float = quantity("winch_top_speed", gt=0.0, reason="the direction follows from the lengths")
     acceleration: float = quantity("winch_acceleration", gt=0.0, reason="it divides the speed")
-    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", cure="0 or later")
+    start: float = quantity("winch_start", 0.0, ge=0.0, reason="the run starts at 0", fix="0 or later")
 
 
 class Cosine(Record):
@@ -64,7 +62,7 @@ class Cosine(Record):
     law: Literal["cosine"]
     start_length: float = quantity("winch_start_length", **_SHORTEST)
     amplitude: float = quantity("winch_amplitude", ge=-2e4, le=2e4)
-    frequency: float = quantity("winch_frequency", gt=0.0, le=1e3, reason="it must move", cure="or use constant")
+    frequency: float = quantity("winch_frequency", gt=0.0, le=1e3, reason="it must move", fix="or use constant")
 
 
 class TabulatedLength(Record):

@@ -142,5 +142,5 @@ def _rotations(long: np.ndarray, expected: np.ndarray, key: str) -> Iterator[Pro
                       "deg/m or rad/m? rotations per metre or per slope?")  # fmt: skip
 
 
-def _misfit(key: str, value: str, bound: str, reason: str, cure: str) -> Problem:
-    return Problem(key, f"in the longest waves of the table: {value}", bound, reason, cure)
+def _misfit(key: str, value: str, bound: str, reason: str, fix: str) -> Problem:
+    return Problem(key, f"in the longest waves of the table: {value}", bound, reason, fix)

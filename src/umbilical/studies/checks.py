@@ -74,8 +74,8 @@ def _relative(study: Study) -> Iterator[Problem]:
     for factor in study.factors:
         if factor.relative and not _multiplies(study, factor):
             bound = "a number of the scenario, and numbers drawn"
-            cure = "drop `relative`, or name another key"
-            wrong = Problem(factor.key, "relative = true", bound, "a factor multiplies a number", cure)
+            fix = "drop `relative`, or name another key"
+            wrong = Problem(factor.key, "relative = true", bound, "a factor multiplies a number", fix)
             # Of a key that leads nowhere, the scenario itself says what was meant.
             yield from _new_ones(study, {}, {factor.key: draw(factor.distribution, _MIDDLE)}) or (wrong,)
 
@@ -95,8 +95,8 @@ def _grid(study: Study) -> Iterator[Problem]:
     for variable in variables(study):
         if count(variable.distribution) is None:
             kind = variable.distribution.kind
-            cure = "a grid or choice distribution, or another design"
-            yield Problem(variable.name, kind, "grid or choice", "a grid combines single values", cure)
+            fix = "a grid or choice distribution, or another design"
+            yield Problem(variable.name, kind, "grid or choice", "a grid combines single values", fix)
     combinations = size(study.design, study.members, [count(v.distribution) for v in variables(study)])
     if combinations > _MOST:
         yield Problem(
@@ -152,8 +152,8 @@ def _draws_are_not_lost(study: Study) -> Iterator[Problem]:
     """Nothing else says what a draw says."""
     for number, factor in enumerate(study.factors, start=1):
         if factor.key in ("seed", "name"):
-            reason, cure = "every member has its own already", f"drop factor {number}"
-            yield Problem(factor.key, "drawn", "anything but the seed and the name", reason, cure)
+            reason, fix = "every member has its own already", f"drop factor {number}"
+            yield Problem(factor.key, "drawn", "anything but the seed and the name", reason, fix)
         if study.campaigns and _overlap(factor.key, "faults"):
             reason = "a campaign replaces the list of faults in the members it strikes"
             yield Problem(factor.key, "drawn", "no fault, beside a campaign", reason, "draw it in a campaign")

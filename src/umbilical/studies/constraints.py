@@ -26,7 +26,7 @@ def certificate(scenario: Scenario) -> float:
     from umbilical.analysis.certificate import certify  # mpmath and a search behind it
 
     try:
-        found = certify(scenario, cure=False)
+        found = certify(scenario, fix=False)
     except ScenarioError:  # a law for which there is no certificate
         return 1.0
     if isnan(found.rate):

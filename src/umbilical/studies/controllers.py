@@ -84,22 +84,22 @@ def _fails_in_its_arm(study: Study, arm: Arm) -> tuple[str, str, str] | None:
 
 def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] | None:
     """What is allowed, why this is not, and what to do; None where the controller works."""
-    bound, cure = "module:function, which makes a controller from a scenario", "see `Your own controller` in the guide"
+    bound, fix = "module:function, which makes a controller from a scenario", "see `Your own controller` in the guide"
     try:
         controller = make_controller(path, scenario)
         if not isinstance(controller, Controller):
             missing = ", ".join(name for name in ("period", "start", "update") if not hasattr(controller, name))
-            return bound, f"it gives {type(controller).__name__}, which has no {missing}", cure
+            return bound, f"it gives {type(controller).__name__}, which has no {missing}", fix
         rehearse(scenario, controller)
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # sys.exit in a controller must not end us
-        return bound, f"it fails at the start of {where}: {describe_error(error)}", cure
+        return bound, f"it fails at the start of {where}: {describe_error(error)}", fix
     return None
 
 
-def _problem(number: int, arm: Arm, bound: str, reason: str, cure: str) -> Problem:
-    return Problem(f"arms.{number}.controller", f'"{arm.controller}"', bound, reason, cure)
+def _problem(number: int, arm: Arm, bound: str, reason: str, fix: str) -> Problem:
+    return Problem(f"arms.{number}.controller", f'"{arm.controller}"', bound, reason, fix)
 
 
 def _factory(path: str) -> Callable[..., Any]:

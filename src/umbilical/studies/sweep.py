@@ -23,7 +23,7 @@ from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
 
 Progress = Callable[[float], None]
-Tell = Callable[[str], None]
+Report = Callable[[str], None]
 
 
 def sweep(
@@ -36,7 +36,7 @@ def sweep(
     resume: bool = False,
     force: bool = False,
     progress: Progress = lambda share: None,
-    tell: Tell = lambda text: None,
+    report: Report = lambda text: None,
 ) -> StudyResult:
     """Run every member of a study in every arm.
 
@@ -50,7 +50,7 @@ def sweep(
         resume: go on with what is in the folder.
         force: begin anew, and remove what is in the folder.
         progress: called with the share done, 0 to 1.
-        tell: called with what is to be said before the start: the size of complete runs.
+        report: called with what is to be said before the start: the size of complete runs.
 
     Returns:
         The result. Members that diverged, were refused or failed are rows of it, with the reason.
@@ -76,7 +76,7 @@ def sweep(
     if folder is None:
         return in_memory(draws, engine, progress)
     with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
-        return _into(store, draws, engine, progress, tell)
+        return _into(store, draws, engine, progress, report)
 
 
 def in_memory(draws: Draws, engine: Engine, progress: Progress = lambda share: None) -> StudyResult:
@@ -89,10 +89,10 @@ def default_engine(study: Study, jobs: int) -> Engine:
     return (processes if any(arm.controller for arm in study.arms) else threads)(jobs)
 
 
-def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, tell: Tell) -> StudyResult:
+def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, report: Report) -> StudyResult:
     study, done = draws.study, {row.number for row in _stored_rows(store, draws)}
     if study.trajectories.keep != "none":
-        _check_room(store, draws, tell)
+        _check_room(store, draws, report)
     found = engine(draws, _members(draws, done))
     for row in _counted(found, len(draws), len(done), progress):
         _store_runs(store, row, range(len(study.arms)))
@@ -141,11 +141,13 @@ def disk_needed(draws: Draws) -> int:
     return count * sum(len(to_netcdf(simulate(scenario).data)) for scenario in draws.undrawn())
 
 
-def _check_room(store: Store, draws: Draws, tell: Tell) -> None:
+def _check_room(store: Store, draws: Draws, report: Report) -> None:
     """Say what complete runs will take, and refuse what there is no room for; those that are there need none."""
     there = sum(file.stat().st_size for file in (store.folder / RUNS).glob(STORED))
     need, room = max(disk_needed(draws) - there, 0), shutil.disk_usage(store.folder).free
-    tell(f"complete runs ({draws.study.trajectories.keep}): about {need / 1e6:.3g} MB will be stored beside the result")
+    report(
+        f"complete runs ({draws.study.trajectories.keep}): about {need / 1e6:.3g} MB will be stored beside the result"
+    )
     if need > room:
         raise OutputError(
             f"{store.folder}: complete runs would take {need / 1e9:.3g} GB, and {room / 1e9:.3g} GB are free; "

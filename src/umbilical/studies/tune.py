@@ -236,8 +236,8 @@ def tuning_of(study: Study) -> Tuning:
     """
     if study.tuning is None:
         reason = "tuning needs gains, objectives and an arm"
-        cure = "add [tuning]; `umbilical presets gain-tuning` has one"
-        raise ScenarioError([Problem("tuning", "missing", "required here", reason, cure)], study.name)
+        fix = "add [tuning]; `umbilical presets gain-tuning` has one"
+        raise ScenarioError([Problem("tuning", "missing", "required here", reason, fix)], study.name)
     return study.tuning
 
 
@@ -300,6 +300,6 @@ def _arm(study: Study) -> Arm:
 def _known(known: Mapping[str, Constraint], name: str) -> Constraint:
     if name not in known:
         there = f"one of {', '.join(known)}" if known else "none in this version"
-        cure = nearest(name, known) if known else "drop it"
-        raise ScenarioError([Problem("tuning.constraints", f'"{name}"', there, "no such condition is known", cure)])
+        fix = nearest(name, known) if known else "drop it"
+        raise ScenarioError([Problem("tuning.constraints", f'"{name}"', there, "no such condition is known", fix)])
     return known[name]

@@ -15,9 +15,9 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
+from umbilical.synthesis.iterate import Limits, Outcome, Side, badness, design_within, side
 from umbilical.synthesis.margins import check_request
-from umbilical.synthesis.paces import pace, paced
-from umbilical.synthesis.rounds import Limits, Outcome, Side, badness, design_within, side
+from umbilical.synthesis.periods import pace, paced
 from umbilical.synthesis.score import Demands, Score
 from umbilical.synthesis.search import Objective, Task, Values, inner_knobs
 
@@ -105,7 +105,7 @@ def design(
 
     The search takes minutes::
 
-        from umbilical.synthesis.rounds import Limits
+        from umbilical.synthesis.iterate import Limits
 
         found = umbilical.design(umbilical.load("ringdown"), inner=True, limits=Limits(voltage=60.0))
         print(found.met, found.missing, found.patch())

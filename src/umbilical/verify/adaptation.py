@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.library import load
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close
 
 RATES, LEAK, START, PERIOD = (0.1, 100.0, 50.0), 0.2, (0.25, 0.0, 0.5), 1e-3
@@ -24,7 +24,7 @@ def followed() -> Iterator[Check]:
     """
     allocation = {"method": "adaptive", "rates": RATES, "leak": LEAK, "initial": START}
     changes = {"control.allocation": allocation, "duration": UNTIL, "output.interval": PERIOD, "grid.elements": 8}
-    run = ours.completed(load("paper-adaptive", changes))
+    run = engine.completed(load("paper-adaptive", changes))
     thrust, error = run["thrust_command"].values, run["boundary_error"].values
     gamma, kappa = np.array(RATES), np.array(START)
     wanted = [kappa]  # the first update starts, and advances nothing

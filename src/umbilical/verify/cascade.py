@@ -16,11 +16,11 @@ import numpy as np
 
 from umbilical.analysis.convergence import Curve
 from umbilical.library import load
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close, order_reached
-from umbilical.verify.ours import constant, sine
+from umbilical.verify.engine import constant, sine
+from umbilical.verify.orders import PERIOD_ORDER
 from umbilical.verify.references import cascade as monolithic
-from umbilical.verify.stated import PERIOD_ORDER
 
 UNTIL = 7.0
 PERIODS = (1e-3, 5e-4, 2.5e-4, 1.25e-4)
@@ -44,7 +44,7 @@ def histories(period: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         "motors.1.torque_disturbance": [BELL | {"amplitude": 1.0}],
         "motors.1.voltage_disturbance": [BELL | {"amplitude": 0.2}],
     }
-    run = ours.completed(load("paper", changes))
+    run = engine.completed(load("paper", changes))
     return run["tip_displacement"].values, run["thrust"].values, run["motor_voltage"].values.T
 
 

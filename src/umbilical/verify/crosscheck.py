@@ -10,9 +10,9 @@ from collections.abc import Iterator
 
 from umbilical.analysis.convergence import Curve
 from umbilical.library import load
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, order_reached
-from umbilical.verify.stated import PERIOD_ORDER
+from umbilical.verify.orders import PERIOD_ORDER
 
 PEAKS = {"crosscheck-none": 12.086, "crosscheck-pd": 4.173, "crosscheck-no-observer": 0.5008}
 PROPOSED = 0.002294
@@ -22,7 +22,7 @@ PERIODS = (1e-3, 5e-4, 2.5e-4, 1.25e-4)
 
 def peak(preset: str, period: float = 1e-3) -> float:
     """Largest |y(l,t)| over the run, m."""
-    return ours.completed(load(preset, {"control.period": period, "grid.step": period})).metrics["tip_peak"]
+    return engine.completed(load(preset, {"control.period": period, "grid.step": period})).metrics["tip_peak"]
 
 
 def published(preset: str) -> Iterator[Check]:

@@ -8,9 +8,9 @@ import numpy as np
 
 from umbilical.plant.layout import positions
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
-from umbilical.verify.ours import STEADY_TENSION, UNDAMPED, open_loop
+from umbilical.verify.engine import STEADY_TENSION, UNDAMPED, open_loop
 from umbilical.verify.references.hanging_string import (
     HangingString,
     frequencies,
@@ -36,7 +36,7 @@ def hanging(string: HangingString, **overrides: object) -> Scenario:
 def compared(string: HangingString, **overrides: object) -> Iterator[Check]:
     """The first six frequencies and shapes, and that nothing decays or grows by itself."""
     scenario = hanging(string, **overrides)
-    found, shapes = ours.modes(scenario, 6)
+    found, shapes = engine.modes(scenario, 6)
     exact = frequencies(string, 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
     above = string.length * (1.0 - positions(scenario.grid.elements))
@@ -50,7 +50,7 @@ def compared(string: HangingString, **overrides: object) -> Iterator[Check]:
 
 def steady_tension() -> Iterator[Check]:
     """The limit rho -> 0 in the tension only."""
-    found = ours.poles(hanging(HangingString()).replace(STEADY_TENSION), 6)
+    found = engine.poles(hanging(HangingString()).replace(STEADY_TENSION), 6)
     exact = steady_tension_frequencies(HangingString(), 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
 
@@ -58,7 +58,7 @@ def steady_tension() -> Iterator[Check]:
 def pendulum() -> Iterator[Check]:
     """A cable that weighs nothing beside its ROV: the first mode is a pendulum, the others are those of a fixed end."""
     string = HangingString(line_density=2.0, mass=2e6)
-    found = np.imag(ours.poles(hanging(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
+    found = np.imag(engine.poles(hanging(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
     share = string.line_density * string.length / string.mass
     yield close("w1, rad/s", found[0], np.sqrt(string.gravity / string.length), share, "the cable's share of the mass")
     speed = np.sqrt(string.mass * string.gravity / string.line_density)

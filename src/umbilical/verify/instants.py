@@ -13,9 +13,9 @@ import numpy as np
 
 from umbilical.library import load
 from umbilical.run import Run
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, each_close, small
-from umbilical.verify.ours import STEADY_TENSION, open_loop
+from umbilical.verify.engine import STEADY_TENSION, open_loop
 
 MASS, IMPEDANCE, STEP = 500.0, 100.0, 1e-3
 LOOK = 5
@@ -37,7 +37,7 @@ FAULTS = {
 def pushed(start: float, width: float) -> Run:
     """A pulse of 1 N s, however short."""
     pulse = [{"kind": "pulse", "value": 1.0 / width, "start": start, "end": start + width}]
-    return ours.completed(
+    return engine.completed(
         open_loop(duration=0.08, output__interval=STEP, environment__payload_force=pulse).replace(STEADY_TENSION)
     )
 
@@ -50,7 +50,7 @@ def stuck(start: float, **more: Any) -> Run:
         "faults": [fault], "control.law": {"kind": "none"}, "environment.payload_force": [], "duration": 0.1,
         "output.interval": STEP, "winch": {"law": "constant", "length": 500.0},
     }  # fmt: skip
-    return ours.completed(load("paper", quiet | changes | STEADY_TENSION))
+    return engine.completed(load("paper", quiet | changes | STEADY_TENSION))
 
 
 def velocity_after(force: float, since: np.ndarray) -> np.ndarray:

@@ -9,9 +9,9 @@ import numpy as np
 
 from umbilical.library import load
 from umbilical.run import Run
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, history_close
-from umbilical.verify.ours import constant, dotted, open_loop, sine
+from umbilical.verify.engine import constant, dotted, open_loop, sine
 
 ROUND_OFF = 1e-9
 WHY = "round-off of some thousand steps"
@@ -41,7 +41,7 @@ def response(lengths: tuple[float, float], start: float, inputs: list[dict[str, 
         payload__damping=5.0,
         environment__vessel_ramp=2.0,  # in every part: forces are evaluated anew where it ends
     )
-    return ours.completed(scenario.replace(environment))
+    return engine.completed(scenario.replace(environment))
 
 
 def superposed(lengths: tuple[float, float]) -> Iterator[Check]:
@@ -67,7 +67,7 @@ def mirrored(sign: float, preset: str) -> Run:
         sideways[f"motors.{motor}.torque_disturbance"] = [sine(sign, 20.0)]
         sideways[f"motors.{motor}.voltage_disturbance"] = [sine(0.2 * sign, 20.0)]
         sideways["faults"] = [{"kind": "stuck", "motor": motor, "start": 0.05, "value": 100.0 * sign}]
-    return ours.completed(scenario.replace(sideways))
+    return engine.completed(scenario.replace(sideways))
 
 
 def mirror_image() -> Iterator[Check]:
@@ -80,7 +80,7 @@ def mirror_image() -> Iterator[Check]:
 def pulsed(begin: float, **overrides: Any) -> np.ndarray:
     """y(l,t), m, from half a second's push of 100 N on."""
     pulse = [{"kind": "pulse", "value": 100.0, "start": begin, "end": begin + 0.5}]
-    run = ours.completed(
+    run = engine.completed(
         open_loop(duration=6.0, grid__elements=8, output__interval=0.01, environment__payload_force=pulse, **overrides)
     )
     return run["tip_displacement"].values[run["time"].values >= begin - 1e-9]
@@ -95,7 +95,7 @@ def shifted() -> Iterator[Check]:
 def hung(length: float, time: float, force: float) -> Run:
     """The same cable in units of ``length`` m, ``time`` s and ``force`` N; g = 10 m/s2 in each."""
     mass = force * time**2 / length
-    return ours.completed(
+    return engine.completed(
         open_loop(
             environment__gravity=10.0 * length / time**2,
             cable={"line_density": 2.0 * mass / length, "damping": 0.1 * mass / length / time},
@@ -126,7 +126,7 @@ def in_other_units() -> Iterator[Check]:
 
 def all_dead() -> Iterator[Check]:
     """Whatever the controller tries."""
-    dead, free = ours.completed(small("paper", faults=DEAD)), ours.completed(small("paper-none"))
+    dead, free = engine.completed(small("paper", faults=DEAD)), engine.completed(small("paper-none"))
     yield history_close("displacement, m", dead["displacement"].values, free["displacement"].values, 1e-15, "no thrust")
 
 
@@ -136,7 +136,7 @@ def weightless() -> Iterator[Check]:
     def along(wet: float) -> np.ndarray:
         start = {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5}
         scenario = open_loop(duration=20.0, cable__wet_line_density=wet, grid__elements=8, initial=start)
-        return ours.completed(scenario)["displacement"].values
+        return engine.completed(scenario)["displacement"].values
 
     limit = along(0.0)
     far, near = (float(np.abs(along(wet) - limit).max()) for wet in (1e-2, 1e-4))
@@ -145,8 +145,8 @@ def weightless() -> Iterator[Check]:
 
 def refined() -> Iterator[Check]:
     """The paper's scenario at the default grid, and with twice the elements and half the step."""
-    default = ours.completed(load("paper"))
-    fine = ours.completed(load("paper", {"grid.elements": 128, "grid.step": 5e-4}))
+    default = engine.completed(load("paper"))
+    fine = engine.completed(load("paper", {"grid.elements": 128, "grid.step": 5e-4}))
     why = "the load starts with a jump, and the front of the wave it sends wants the finer grid"
     for name, unit in (("tip_displacement", "m"), ("thrust", "N")):
         yield history_close(f"{name.replace('_', ' ')}, {unit}", default[name].values, fine[name].values, 5e-3, why)

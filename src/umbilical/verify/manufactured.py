@@ -16,12 +16,12 @@ import numpy as np
 
 from umbilical.analysis.convergence import Curve
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close, order_reached, small
-from umbilical.verify.ours import constant, open_loop, sine
+from umbilical.verify.engine import constant, open_loop, sine
+from umbilical.verify.orders import DISPLACEMENT_ORDER, TIME_ORDER, TIP_ORDER, VELOCITY_ORDER
 from umbilical.verify.references import manufactured as exact
 from umbilical.verify.references.manufactured import Problem, Sea
-from umbilical.verify.stated import DISPLACEMENT_ORDER, TIME_ORDER, TIP_ORDER, VELOCITY_ORDER
 
 UNTIL = 2.0
 ALONG, OVER = 1001, 801
@@ -67,7 +67,7 @@ class Answer(NamedTuple):
 
 def _positions(elements: int) -> np.ndarray:
     """Where the tables have their points: at every node, where the engine reads them, and between."""
-    nodes = ours.completed(open_loop(grid__elements=elements, duration=0.01, output__interval=0.01))["sigma"].values
+    nodes = engine.completed(open_loop(grid__elements=elements, duration=0.01, output__interval=0.01))["sigma"].values
     return np.unique(np.concatenate([nodes, np.linspace(0.0, 1.0, ALONG)]))
 
 
@@ -158,7 +158,7 @@ def _winch(problem: Problem) -> dict[str, Any]:
 
 def solve(problem: Problem, elements: int, step: float) -> Answer:
     """The engine's answer at the end."""
-    run = ours.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
+    run = engine.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
     return Answer(
         run["sigma"].values,
         run["displacement"].values[-1],

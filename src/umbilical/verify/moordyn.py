@@ -12,10 +12,10 @@ from functools import cache
 import numpy as np
 
 from umbilical.analysis.convergence import Curve
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close, order_reached, small
+from umbilical.verify.engine import sine
 from umbilical.verify.hanging_string import hanging
-from umbilical.verify.ours import sine
 from umbilical.verify.references import lumped_mass
 from umbilical.verify.references.hanging_string import HangingString, carried_tip
 
@@ -48,13 +48,13 @@ def exact(string: HangingString) -> np.ndarray:
     return vessel(t)[0] + carried_tip(string, lambda u: vessel(u)[2], t)
 
 
-def engine(string: HangingString) -> np.ndarray:
-    """y(l,t), m, of ours at the default grid."""
+def tip_of_run(string: HangingString) -> np.ndarray:
+    """y(l,t), m, of the engine at the default grid."""
     scenario = hanging(
         string, duration=UNTIL, output__interval=lumped_mass.STEP,
         environment__vessel_motion=[sine(AMPLITUDE, FREQUENCY)], environment__vessel_ramp=RAMP,
     )  # fmt: skip
-    return ours.completed(scenario)["tip_displacement"].values
+    return engine.completed(scenario)["tip_displacement"].values
 
 
 @cache
@@ -66,7 +66,7 @@ def other(string: HangingString, segments: int) -> np.ndarray:
 
 def carried(string: HangingString) -> Iterator[Check]:
     """Ours alone."""
-    yield history_close("y(l,t) over 50 s, m", engine(string), exact(string), TOLERANCE, WHY)
+    yield history_close("y(l,t) over 50 s, m", tip_of_run(string), exact(string), TOLERANCE, WHY)
 
 
 def side_by_side(string: HangingString) -> Iterator[Check]:
@@ -77,7 +77,7 @@ def side_by_side(string: HangingString) -> Iterator[Check]:
         yield small(
             f"MoorDyn's y(l,t), {n} segments, distance over peak", distance, 60.0 / n**2, "second order: 60/n^2"
         )
-    mine = float(np.abs(engine(string) - exact(string)).max() / peak)
+    mine = float(np.abs(tip_of_run(string) - exact(string)).max() / peak)
     yield small("our distance over that of MoorDyn at 100 segments", mine / off[-1], 0.01, "far smaller: a hundredth")
     sizes = tuple(string.length / n for n in SEGMENTS[1:])
     yield order_reached(Curve("MoorDyn's y(l,t)", "its segments, m", sizes, tuple(off[1:]), 2.0), "lumped masses")

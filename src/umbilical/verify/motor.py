@@ -9,9 +9,9 @@ import numpy as np
 
 from umbilical.library import load
 from umbilical.run import Run
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, history_close
-from umbilical.verify.ours import constant
+from umbilical.verify.engine import constant
 from umbilical.verify.references.motor import integrate, linear_step, steady_state, without_inductance
 
 MOTOR = {
@@ -35,7 +35,7 @@ def drive(signal: list[dict[str, Any]], duration: float, step: float = 1e-3, **c
         "duration": duration,
         "output.interval": step,
     }
-    return ours.completed(load("paper", overrides))
+    return engine.completed(load("paper", overrides))
 
 
 def held_voltage() -> Iterator[Check]:

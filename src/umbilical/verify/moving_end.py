@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.run import Run
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close
-from umbilical.verify.ours import STEADY_TENSION, constant, open_loop, sine
+from umbilical.verify.engine import STEADY_TENSION, constant, open_loop, sine
 from umbilical.verify.references.characteristics import HeldEnd, MovingEnd
 
 TOLERANCE = 1e-3
@@ -88,7 +88,7 @@ def run(setting: Setting, step: float = 1e-3) -> Run:
         control__period=max(step, 1e-3),
         output__interval=0.01 * setting.until,
     )
-    return ours.completed(scenario.replace(STEADY_TENSION))
+    return engine.completed(scenario.replace(STEADY_TENSION))
 
 
 def reference(setting: Setting, **resolution: int) -> MovingEnd:

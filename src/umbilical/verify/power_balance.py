@@ -14,10 +14,10 @@ import numpy as np
 from umbilical.analysis.convergence import Curve
 from umbilical.library import load
 from umbilical.run import Run
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, order_reached, small
-from umbilical.verify.ours import constant, open_loop, sine
-from umbilical.verify.stated import BALANCE_ORDER, BALANCE_TIME_ORDER
+from umbilical.verify.engine import constant, open_loop, sine
+from umbilical.verify.orders import BALANCE_ORDER, BALANCE_TIME_ORDER
 
 WAYS = {"paying out": (100.0, 130.0), "hauling in": (130.0, 100.0)}
 IN_WATER = {"payload.wet_weight": 2500.0, "cable.wet_line_density": 0.6}
@@ -28,7 +28,7 @@ WHY = "16 elements; the smallest term left out opens it a hundred times further"
 
 def moved(way: tuple[float, float], elements: int, step: float, **more: object) -> Run:
     """Ten seconds with load, force, dampers, vessel and winch all at work."""
-    return ours.completed(
+    return engine.completed(
         open_loop(
             duration=10.0,
             grid={"elements": elements, "step": step},
@@ -88,7 +88,7 @@ def controlled(way: tuple[float, float]) -> Iterator[Check]:
         "environment.payload_force": [constant(100.0), sine(-100.0, 0.9, np.pi / 2.0)],
         "environment.vessel_motion": [constant(0.2), sine(-0.2, 1.1, np.pi / 2.0)],
     }
-    found = ours.completed(load("paper", changes)).metrics["energy_balance_residual"]
+    found = engine.completed(load("paper", changes)).metrics["energy_balance_residual"]
     why = "nothing is rough here; a work of the thrust of the wrong sign opens it by 1"
     yield small("|E - start - work| over energy and work", found, 1e-6, why)
 

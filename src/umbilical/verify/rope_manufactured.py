@@ -14,10 +14,10 @@ from umbilical.plant.rope.rates import evaluate
 from umbilical.plant.rope.records import RopeState, make_state
 from umbilical.plant.rope.statics import node_positions, unknowns
 from umbilical.verify.cases import Case, Check, order_reached, small
+from umbilical.verify.orders import ROPE_ORDER, TIME_ORDER
 from umbilical.verify.references import manufactured_rope as exact
 from umbilical.verify.references.manufactured_rope import Problem
 from umbilical.verify.rope import COMPUTED, quintic, waving
-from umbilical.verify.stated import ROPE_ORDER, TIME_ORDER
 
 UNTIL = 1.0
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3)

@@ -11,7 +11,7 @@ import numpy as np
 from umbilical.library import load
 from umbilical.run import Run
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, small
 from umbilical.verify.invariance import TWO_RUNS
 
@@ -39,7 +39,7 @@ SEAWAY: dict[str, Any] = {
     "duration": 60.0, "environment.vessel_ramp": 20.0, "control.law": {"kind": "none"},
     "environment.sea": {"systems": [SYSTEM], "vessel": SHIP, "plane": 2.0, "heave": True, "orbital_below": 6.6},
     "environment.water.current": {
-        "depths": [0.0, 1100.0], "speeds": [0.5, 0.06], "variation": [ours.sine(0.2, 0.3)],
+        "depths": [0.0, 1100.0], "speeds": [0.5, 0.06], "variation": [engine.sine(0.2, 0.3)],
     },
 }  # fmt: skip
 """Waves that move vessel and water, heave in the tension, a current that varies; a law would know the tension of the
@@ -60,7 +60,7 @@ def smaller(scenario: Scenario, share: float) -> dict[str, Any]:
 def beside(scenario: Scenario) -> tuple[Run, Run]:
     """The same on the string and on the rope, on grids of :data:`ELEMENTS`."""
     grids = {"grid.elements": ELEMENTS, "rope.elements": ELEMENTS}
-    string, rope = (ours.completed(scenario.replace({**grids, "model": model})) for model in ("string", "rope"))
+    string, rope = (engine.completed(scenario.replace({**grids, "model": model})) for model in ("string", "rope"))
     return string, rope
 
 

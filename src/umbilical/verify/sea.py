@@ -16,7 +16,7 @@ from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point, motio
 from umbilical.sea.rao_checks import table_problems
 from umbilical.sea.spectrum import normalisation
 from umbilical.verify.cases import Case, Check, close, each_close, small
-from umbilical.verify.ours import completed, open_loop, sine
+from umbilical.verify.engine import completed, open_loop, sine
 from umbilical.verify.references import sea as reference
 
 BOW_QUARTER = np.radians(135.0)

@@ -10,7 +10,7 @@ import numpy as np
 from umbilical.plant.seaway import sheave
 from umbilical.scenario.scenario import Scenario
 from umbilical.sea import BoxVessel
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, each_close, history_close, small
 from umbilical.verify.invariance import ROUND_OFF, TWO_RUNS, WHY
 from umbilical.verify.references import sea as reference
@@ -46,7 +46,7 @@ def in_waves(state: dict[str, Any] | None, **changes: Any) -> Scenario:
 
 def displaced(state: dict[str, Any] | None, **changes: Any) -> np.ndarray:
     """Displacement y of that string, m, shape (samples, nodes)."""
-    return ours.completed(in_waves(state, **changes))["displacement"].values
+    return engine.completed(in_waves(state, **changes))["displacement"].values
 
 
 def moved_by_waves() -> Iterator[Check]:
@@ -55,7 +55,7 @@ def moved_by_waves() -> Iterator[Check]:
     rows = []
     for change in ({}, rope):
         with_waves, without = (
-            ours.completed(in_waves(sea(low, orbital_below=depth)).replace(change))["displacement"].values
+            engine.completed(in_waves(sea(low, orbital_below=depth)).replace(change))["displacement"].values
             for depth in (6.6, None)
         )
         rows.append(with_waves - without)
@@ -71,7 +71,7 @@ def later() -> Iterator[Check]:
     there = here.replace({"environment.sea": None, "duration": 170.0 - delay, "environment.vessel_motion": [
         _ahead(term, delay) for term in waves.along], "environment.vessel_heave": [
         _ahead(term, delay) for term in waves.up]})  # fmt: skip
-    first, second = ours.completed(here), ours.completed(there)
+    first, second = engine.completed(here), engine.completed(there)
     late = second["time"].values > 120.0
     why = "what two minutes leave of the start"
     for name in ("tip_displacement", "top_tension"):
@@ -93,7 +93,7 @@ def twice_as_high() -> Iterator[Check]:
     yield history_close("y, m", twice, 2.0 * once, ROUND_OFF, WHY)
     heaving = {"cable__axial_stiffness": ELASTIC, **LINEAR}
     still, low, high = (
-        ours.completed(in_waves(state, **heaving))["top_tension"].values
+        engine.completed(in_waves(state, **heaving))["top_tension"].values
         for state in (sea({"significant_height": 0.0}, heave=True), sea(heave=True), sea(double, heave=True))
     )
     yield history_close("tension at the sheave, N", high - still, 2.0 * (low - still), ROUND_OFF, WHY)
@@ -104,7 +104,7 @@ def twice_as_many() -> Iterator[Check]:
     rows = []
     for count in (200, 400):
         state = sea({"significant_height": 2.5, "components": count}, heave=True)
-        run = ours.completed(in_waves(
+        run = engine.completed(in_waves(
             state, cable__axial_stiffness=ELASTIC, grid__elements=4, grid__step=0.02, control__period=0.02,
             duration=10800.0, **CALMED))  # fmt: skip
         late = run["time"].values > 200.0
@@ -118,7 +118,7 @@ def no_response() -> Iterator[Check]:
     rows = {"heading": np.radians(degrees).tolist(), "frequency": [0.1, 0.2, 0.3, 6.0] * 7,
             "heave": [1.0, 1.0, 0.0, 0.0] * 7, "heave_phase": [0.0] * 28}  # fmt: skip
     table = {"kind": "rao", "phase": "lag", "axes": "port_up", "waves": "towards", **SHEAVE, **rows}
-    heaving, pushed = {"cable__axial_stiffness": ELASTIC}, {"environment__payload_force": [ours.sine(500.0, 0.7)]}
+    heaving, pushed = {"cable__axial_stiffness": ELASTIC}, {"environment__payload_force": [engine.sine(500.0, 0.7)]}
     still = sea(vessel=table, orbital_below=None, heave=True)
     found, exact = displaced(still, **heaving, **pushed), displaced(None, **pushed)
     yield history_close("y, m", found, exact, 1e-12, "the same arithmetic")

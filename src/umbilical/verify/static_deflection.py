@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, history_close
-from umbilical.verify.ours import UNDAMPED, constant, open_loop
+from umbilical.verify.engine import UNDAMPED, constant, open_loop
 from umbilical.verify.references.hanging_string import HangingString, released_tip, static_shape
 
 FORCE, STRING = 100.0, HangingString()
@@ -23,7 +23,7 @@ def stays() -> Iterator[Check]:
     scenario = open_loop(
         initial={"shape": "static", "force": FORCE}, duration=40.0, environment__payload_force=[constant(FORCE)]
     )
-    y = ours.completed(scenario)["displacement"]
+    y = engine.completed(scenario)["displacement"]
     exact = static_shape(STRING, FORCE, y["sigma"].values)
     why = "four digits; a load a per cent too large moves it by 1e-2"
     yield history_close("y at the start, m", y.values[0], exact, TOLERANCE, "interpolation on the grid")
@@ -35,7 +35,7 @@ def settles() -> Iterator[Check]:
     scenario = open_loop(
         duration=120.0, cable__damping=0.6, payload__damping=150.0, environment__payload_force=[constant(FORCE)]
     )
-    y = ours.completed(scenario)["displacement"]
+    y = engine.completed(scenario)["displacement"]
     exact = static_shape(STRING, FORCE, y["sigma"].values)
     yield history_close("y after 120 s, m", y.values[-1], exact, TOLERANCE, "exp(-0.15 x 120) is 1.5e-8")
     yield close("stiffness at the ROV, N/m", FORCE / y.values[-1, -1], FORCE / exact[-1], TOLERANCE, "the same")
@@ -44,7 +44,7 @@ def settles() -> Iterator[Check]:
 def released() -> Iterator[Check]:
     """Undamped release from the static shape."""
     scenario = open_loop(initial={"shape": "static", "force": FORCE}, duration=60.0).replace(UNDAMPED)
-    tip = ours.completed(scenario)["tip_displacement"]
+    tip = engine.completed(scenario)["tip_displacement"]
     exact = released_tip(STRING, FORCE, tip["time"].values)
     yield history_close("y(l,t) over 60 s, m", tip.values, exact, TOLERANCE, WHY)
 

@@ -8,9 +8,9 @@ import numpy as np
 from xarray import DataArray
 
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
-from umbilical.verify.ours import STEADY_TENSION, open_loop, sine
+from umbilical.verify.engine import STEADY_TENSION, open_loop, sine
 from umbilical.verify.references.hanging_string import HangingString, damped_poles, frequencies
 
 STRING = HangingString(length=400.0)
@@ -29,7 +29,7 @@ def damped(cable: float, payload: float) -> Scenario:
 def proportional() -> Iterator[Check]:
     """With c_tip = c m/rho every mode decays alike."""
     rate = 0.04 / (2.0 * STRING.line_density)
-    found = ours.poles(damped(0.04, 0.04 * STRING.mass / STRING.line_density), 6)
+    found = engine.poles(damped(0.04, 0.04 * STRING.mass / STRING.line_density), 6)
     exact = -rate + 1j * np.sqrt(frequencies(STRING, 6) ** 2 - rate**2)
     yield each_close("six poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
     yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
@@ -37,7 +37,7 @@ def proportional() -> Iterator[Check]:
 
 def at_the_payload(damping: float) -> Iterator[Check]:
     """Roots of the damped frequency equation."""
-    found = ours.poles(damped(0.0, damping), 5)
+    found = engine.poles(damped(0.0, damping), 5)
     exact = damped_poles(STRING, damping, 5)
     yield each_close("five poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
     yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
@@ -53,7 +53,7 @@ def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
         winch__length=length, grid__elements=8, payload__damping=damping, cable__damping=0.0, duration=400.0,
         environment__vessel_motion=[sine(1.0, frequency)], environment__vessel_ramp=20.0,
     )  # fmt: skip
-    run = ours.completed(scenario.replace(STEADY_TENSION))
+    run = engine.completed(scenario.replace(STEADY_TENSION))
     late = run["time"].values > 360.0
     t, above = run["time"].values[late, None], length * (1.0 - run["sigma"].values)
     down, up = np.exp(1j * frequency * (t + above / speed)), np.exp(1j * frequency * (t - above / speed))
@@ -96,7 +96,7 @@ def pulse_returned(share: float, since: float) -> DataArray:
         cable__damping=0.0, duration=since + 20.0, output__interval=1.0, grid__step=5e-4,
         initial={"shape": "gaussian", "amplitude": 1.0, "distance": PULSE_AT, "width": PULSE_WIDTH},
     )  # fmt: skip
-    return ours.completed(scenario.replace(STEADY_TENSION))["displacement"].sel(time=slice(since - 1e-6, None))
+    return engine.completed(scenario.replace(STEADY_TENSION))["displacement"].sel(time=slice(since - 1e-6, None))
 
 
 CASES = (

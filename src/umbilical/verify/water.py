@@ -10,12 +10,12 @@ import numpy as np
 from umbilical.library import load
 from umbilical.plant.equilibrium import equilibrium
 from umbilical.relations import tension as law
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
+from umbilical.verify.engine import open_loop
 from umbilical.verify.hanging_string import BESSEL
 from umbilical.verify.hanging_string import SOURCE as CHAIN
 from umbilical.verify.manufactured import LESS_DRAG, REFERENCE, SIZES, in_space
-from umbilical.verify.ours import open_loop
 from umbilical.verify.references.hanging_string import HangingString, frequencies
 from umbilical.verify.references.manufactured import Problem
 from umbilical.verify.references.water import Hung, Sliding
@@ -47,13 +47,15 @@ SEA: dict[str, Any] = {
 
 def string(length: float, **changes: Any) -> Any:
     """That string in open loop at a constant length, m."""
-    return open_loop(winch={"law": "constant", "length": length}).replace(SEA | ours.UNDAMPED | ours.dotted(changes))
+    return open_loop(winch={"law": "constant", "length": length}).replace(
+        SEA | engine.UNDAMPED | engine.dotted(changes)
+    )
 
 
 def returned(speed: float) -> Iterator[Check]:
     """A bump meets the sheave while the cable slides through it."""
     exact, until = Sliding(60e3, 5.408, DISPLACED, speed), 5.0
-    run = ours.completed(
+    run = engine.completed(
         string(
             1000.0,
             winch={"law": "speed", "start_length": 1000.0, "speed": speed},
@@ -106,7 +108,7 @@ def statics() -> Iterator[Check]:
     free, held = equilibrium(scenario), equilibrium(scenario, tip=0.0)
     yield close("y(l) in 0.5 m/s, m", free.displacement[-1], IN_CURRENT.offset(), 1e-4, "four digits")
     yield close("force that holds it, N", held.thrust, IN_CURRENT.holding(), 1e-4, "four digits")
-    still = ours.completed(
+    still = engine.completed(
         scenario.replace({"initial": {"shape": "equilibrium"}, "duration": 100.0, "output.interval": 10.0})
     )
     y = still["displacement"].values
@@ -124,7 +126,7 @@ def station(options: dict[str, float], place: float, thrust: float) -> Iterator[
         "control.motor_loop": None, "control.disturbance_observer.gain": 1.0, "control.period": 5e-3,
         "grid.step": 5e-3, "grid.elements": 16, "duration": 3000.0, "output.interval": 1.0,
     })  # fmt: skip
-    run = ours.completed(scenario)
+    run = engine.completed(scenario)
     tip, last = run["tip_displacement"].values, float(run["thrust"].values[-1])
     why = "what has not settled in 3000 s"
     yield small("y(l) less where it rests, over 51 m", (tip[-1] - place) / ALONE.offset(), 1e-3, why)
@@ -140,7 +142,7 @@ def scaled() -> Iterator[Check]:
         scenario = string(1000.0, payload__mass=body, environment__water__current=None, grid__elements=32)
         inertia, moved = LINE + DISPLACED, body + BODY["added_mass"]
         wet = HangingString(inertia, moved, 1000.0, GRAVITY, WEIGHT / (moved * GRAVITY), WET / inertia)
-        found = np.imag(ours.poles(scenario, 3))
+        found = np.imag(engine.poles(scenario, 3))
         yield each_close(f"w1, w2, w3, {name}, rad/s", found, frequencies(wet, 3), 1e-4, "four digits")
 
 
@@ -152,7 +154,7 @@ def slowed() -> Iterator[Check]:
         body = BODY | {"added_mass": 0.0}
         found = string(1000.0, payload__mass=mass, payload__water=body, environment__water__current=None,
                        cable__water=water, grid__elements=32)  # fmt: skip
-        return np.imag(ours.poles(found, 4))
+        return np.imag(engine.poles(found, 4))
 
     held, free = (frequencies_with(1.0, mass) / frequencies_with(0.0, mass) for mass in (1e9, MASS))
     exact = np.full(3, np.sqrt(LINE / (LINE + DISPLACED)))

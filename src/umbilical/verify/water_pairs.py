@@ -15,10 +15,10 @@ from umbilical.plant.top import top_at
 from umbilical.relations.water import line_inertia
 from umbilical.run import Run
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close, small
+from umbilical.verify.engine import constant, open_loop, sine
 from umbilical.verify.invariance import ROUND_OFF, TWO_RUNS, WHY
-from umbilical.verify.ours import constant, open_loop, sine
 from umbilical.verify.water import DISPLACED, LINE, MASS, SEA, string
 
 SLIDES = {"law": "quintic", "start_length": 100.0, "end_length": 108.0, "duration": 10.0}
@@ -37,7 +37,7 @@ def moved(**changes: Any) -> Run:
         "initial": {"shape": "sine", "amplitude": 1.0, "half_waves": 1.5},
         "grid__elements": 8, "duration": 10.0, "output__interval": 0.1,
     }  # fmt: skip
-    return ours.completed(string(100.0, **base | changes))
+    return engine.completed(string(100.0, **base | changes))
 
 
 def moving_frame() -> Iterator[Check]:
@@ -133,7 +133,7 @@ def out_and_in() -> Iterator[Check]:
         "winch": law, "initial": {"shape": "equilibrium"}, "duration": 600.0, "output.interval": 600.0,
         "payload.damping": 2000.0,
     })  # fmt: skip
-    found, exact = ours.completed(end), equilibrium(there)
+    found, exact = engine.completed(end), equilibrium(there)
     y = np.interp(found["sigma"].values, exact.sigma, exact.displacement)
     why = "what 4 cm/s of sliding leave behind"
     yield history_close("y after 600 s, m", found["displacement"].values[-1], y, 1e-3, why)
@@ -185,7 +185,7 @@ def water_that_does_nothing() -> Iterator[Check]:
         "cable.wet_line_density": dry.cable.line_density,
         "payload.wet_weight": dry.payload.mass * dry.environment.gravity,
     })  # fmt: skip
-    before, after = ours.completed(dry), ours.completed(wet)
+    before, after = engine.completed(dry), engine.completed(wet)
     for name in map(str, before.data.data_vars):
         apart = float(np.count_nonzero(before[name].values != after[name].values))
         yield small(f"{name}, values that differ", apart, 0.0, "the same arithmetic")

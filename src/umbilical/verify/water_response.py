@@ -15,9 +15,9 @@ from scipy import sparse
 from umbilical.analysis.impedance import hanging_cable, payload_stiffness, waves
 from umbilical.engine.linear import linearise_plant
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify import ours
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check
-from umbilical.verify.ours import sine
+from umbilical.verify.engine import sine
 from umbilical.verify.references.drag import Shaken
 from umbilical.verify.water import DENSITY, DIAMETER, DISPLACED, GRAVITY, LINE, WET, string
 
@@ -79,7 +79,7 @@ def by_margins(water: Water, frequency: float) -> complex:
 
 def by_run(water: Water, force: float, frequency: float) -> complex:
     """The part of a run at the frequency of the force, after it has settled, m/N."""
-    tip = ours.completed(shaken(water, force, frequency))["tip_displacement"]
+    tip = engine.completed(shaken(water, force, frequency))["tip_displacement"]
     t, y = tip["time"].values, tip.values
     late = t > t[-1] - max(8.0 * np.pi / frequency, KEPT)
     turns = np.outer(t[late] * frequency, np.arange(1, 4))

@@ -63,24 +63,24 @@ def test_the_plant_comes_to_rest_there(law: str) -> None:
 
 
 @pytest.mark.parametrize("load", [4.0, 46.0])
-def test_refused_above_three_tenths_and_each_cure_holds(load: float) -> None:
+def test_refused_above_three_tenths_and_each_fix_holds(load: float) -> None:
     deep = DEEP | {"environment.cable_load": along(constant(load))}
     with pytest.raises(ScenarioError, match=r"a static slope") as caught:
         umbilical.load("paper", deep)
     problem = caught.value.problems[0]
-    share = float(problem.cure.partition("loads below ")[2].split()[0])
+    share = float(problem.fix.partition("loads below ")[2].split()[0])
     eased = DEEP | {"environment.cable_load": along(constant(0.999 * share * load))}
     assert of(umbilical.load("paper", eased)).slope == pytest.approx(0.3, abs=0.002)
     assert umbilical.load("paper", deep | {"model": "rope"}).model == "rope"
 
 
-def test_a_slower_current_is_a_cure() -> None:
+def test_a_slower_current_is_a_fix() -> None:
     """Drag is quadratic, so the share of the current is a root."""
     current = {"depths": [0.0, 1000.0], "speeds": [2.0, 1.0]}
     preset, key = "work-class-1000m-current", "environment.water.current.speeds"
     with pytest.raises(ScenarioError, match=r"a static slope") as caught:
         umbilical.load(preset, {key: current["speeds"]})
-    share = float(caught.value.problems[0].cure.partition("current below ")[2].split()[0])
+    share = float(caught.value.problems[0].fix.partition("current below ")[2].split()[0])
     slower = umbilical.load(preset, {key: [0.999 * share * speed for speed in current["speeds"]]})
     assert of(slower).slope == pytest.approx(0.3, abs=0.002)
 

@@ -87,11 +87,11 @@ def test_periods_and_instants_too() -> None:
 def test_the_fix_of_epoch_times_holds(reach: float) -> None:
     epoch = 1.7e9 + np.linspace(0.0, reach, 7)
     problem = refused({"environment.payload_force": signal(epoch, np.arange(7))})
-    first = re.search(r"subtract the first time, (\S+) s", problem.cure)
-    assert first, problem.cure
+    first = re.search(r"subtract the first time, (\S+) s", problem.fix)
+    assert first, problem.fix
     assert problem.value.split()[0] != problem.value.split()[-1]
     changes: dict[str, Any] = {"environment.payload_force": signal(epoch - float(first[1]), np.arange(7))}
-    if shorter := re.search(r"duration to (\S+) s", problem.cure):
+    if shorter := re.search(r"duration to (\S+) s", problem.fix):
         changes["duration"] = float(shorter[1])
     assert (shorter is not None) == (reach < 50.0)
     assert umbilical.load("paper", changes)
@@ -125,10 +125,10 @@ def test_a_record_with_jitter_is_refused_and_its_fixes_hold(place: str) -> None:
     assert umbilical.load("paper", CALM | {place: signal(RECORD, SWELL)})
     problem = refused(CALM | {place: signal(*LATE)})
     assert problem.key == f"{place}.1.values"
-    without = int(re.search(r"look at point (\d+)", problem.cure)[1]) - 1  # type: ignore[index]
+    without = int(re.search(r"look at point (\d+)", problem.fix)[1]) - 1  # type: ignore[index]
     left = [np.delete(column, without) for column in LATE]
     assert umbilical.load("paper", CALM | {place: signal(*left)})
-    assert 'interpolation = "linear"' in problem.cure
+    assert 'interpolation = "linear"' in problem.fix
     assert umbilical.load("paper", CALM | {place: signal(*LATE, interpolation="linear")})
 
 

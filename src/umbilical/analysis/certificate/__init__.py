@@ -6,7 +6,7 @@ The theory is docs/certificates.md. ``search.py`` finds numbers, ``proof.py`` ve
 from umbilical.analysis.certificate.bounds import bound, lyapunov_of
 from umbilical.analysis.certificate.cable_bound import cable_bound
 from umbilical.analysis.certificate.certify import certify
-from umbilical.analysis.certificate.metres import Bounds, displacement_bound, largest_bounds
+from umbilical.analysis.certificate.displacement import Bounds, displacement_bound, largest_bounds
 from umbilical.analysis.certificate.records import Certificate, Inequality, Proof, Start, Weights
 
 __all__ = [

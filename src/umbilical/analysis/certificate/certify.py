@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from umbilical.analysis.certificate.attempt import Task, attempt
+from umbilical.analysis.certificate.advice import best_rate, fixes
 from umbilical.analysis.certificate.bounds import reach_of, residual_of, start_of
 from umbilical.analysis.certificate.conditions import conditions, relative_margins, tightest
-from umbilical.analysis.certificate.cure import best_rate, cures
 from umbilical.analysis.certificate.loads import loads_of
 from umbilical.analysis.certificate.paper_conditions import paper_conditions
 from umbilical.analysis.certificate.ranges import ranges_of, stretch_of
 from umbilical.analysis.certificate.records import Certificate
 from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges, stopped
+from umbilical.analysis.certificate.solve import Task, attempt
 from umbilical.analysis.ideal_loop import energy_rate
 from umbilical.errors import expect
 from umbilical.relations.water import in_water
@@ -19,7 +19,7 @@ from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Sensors
 
 
-def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
+def certify(scenario: Scenario, *, fix: bool = True) -> Certificate:
     """Prove how fast the ideal loop of a scenario calms down, over its whole run.
 
     The ideal loop knows Dy/Dt and the rate of the slope at the ROV, acts continuously, and its thrusters deliver what
@@ -27,10 +27,10 @@ def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
 
     Args:
         scenario: with the boundary law.
-        cure: whether to look for gains that mend what does not hold, which takes longer than all the rest.
+        fix: whether to look for gains that mend what does not hold, which takes longer than all the rest.
 
     Returns:
-        The certificate. One that does not hold is a result, too, whose ``broken`` and ``cures`` say why and what to do.
+        The certificate. One that does not hold is a result, too, whose ``broken`` and ``fixes`` say why and what to do.
 
     Raises:
         ScenarioError: another law than the boundary law, or a slope gain of 0.
@@ -72,7 +72,7 @@ def certify(scenario: Scenario, *, cure: bool = True) -> Certificate:
         start=start_of(loop, scenario),
         reach=(reach_of(loop, ranges, weights, 0.5), reach_of(loop, ranges, weights, 1.0)),
         proof=proof,
-        cures=cures(loop, task) if cure and not found.certified else (),
+        fixes=fixes(loop, task) if fix and not found.certified else (),
         limits=_limits(scenario),
     )
 

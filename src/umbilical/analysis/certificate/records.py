@@ -143,7 +143,7 @@ class Certificate(ResultFaces):
         start: where the scenario starts from.
         reach: bound of ``|y - e|/sqrt(V)`` at the middle and at the ROV, m/sqrt(J), the largest over the run.
         proof: the independent verification.
-        cures: what would mend it, when it does not hold and this was asked for.
+        fixes: what would mend it, when it does not hold and this was asked for.
         limits: what it does not speak about.
 
     >>> import umbilical
@@ -174,7 +174,7 @@ class Certificate(ResultFaces):
     start: Start
     reach: tuple[float, float]
     proof: Proof
-    cures: tuple[Problem, ...]
+    fixes: tuple[Problem, ...]
     limits: tuple[str, ...]
 
     def __repr__(self) -> str:

@@ -114,7 +114,7 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
     found = in_water(scenario.cable, scenario.payload, scenario.environment)
     linear = "the proof takes every damping as linear; drag grows with the square of the speed"
     moves = "the proof has one mass and one tension of a cable that slides; added mass and drag along it are another"
-    still, cure = isinstance(scenario.winch, ConstantLength), "take it to 0 for a certificate, and judge it by margins"
+    still, fix = isinstance(scenario.winch, ConstantLength), "take it to 0 for a certificate, and judge it by margins"
     heave, dragged = bool(heaving(scenario.environment)), found.tangential + found.body_axial > 0.0
     moved = found.added + found.body_vertical > 0.0
     current = scenario.environment.water.current if scenario.environment.water else None
@@ -132,7 +132,7 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
         ("cable.water", not still and (moved or dragged), moves),
     ):
         if wrong:
-            yield Problem(key, "given", "none of it", reason, cure)
+            yield Problem(key, "given", "none of it", reason, fix)
 
 
 def _problem(key: str, value: str, bound: str, reason: str) -> Problem:

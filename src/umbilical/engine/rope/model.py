@@ -30,7 +30,7 @@ from umbilical.engine.rope.recording import MOST_SNAPS, make_rope_log, make_rope
 from umbilical.engine.rope.world import RopeNow, RopePlant, RopePlantState, RopeWorld, Side
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Stretch, make_clock
-from umbilical.engine.sensing import Dice, Sensors, make_sensor_state, make_sensors
+from umbilical.engine.sensing import NoiseSource, Sensors, make_sensor_state, make_sensors
 from umbilical.engine.setup import loop_of
 from umbilical.frames import numbers
 from umbilical.plant import faults
@@ -65,8 +65,8 @@ class RopeModel:
         self.every = self._record.every
         self._sampler = RopeSampler(scenario)
         self._dice = (
-            Dice(self._world.along.sensors, scenario.seed),
-            Dice(self._world.across.sensors, (scenario.seed, 1)),
+            NoiseSource(self._world.along.sensors, scenario.seed),
+            NoiseSource(self._world.across.sensors, (scenario.seed, 1)),
         )
 
     def _make_world(self) -> RopeWorld:

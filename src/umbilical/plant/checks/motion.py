@@ -288,14 +288,14 @@ def vessel_at_the_start(
         return
     displacement, velocity = (part.item() for part in vessel_at(environment, 0.0))
     end, size = _upper_end(initial, top_at(winch, 0.0).length.item())
-    cure = "fade the vessel in with environment.vessel_ramp, or choose its phase and the initial shape to fit"
+    fix = "fade the vessel in with environment.vessel_ramp, or choose its phase and the initial shape to fit"
     if abs(displacement - end) > 1e-6 * max(size, 1.0):
         yield Problem(
             "environment.vessel_motion",
             f"e(0) = {amount(displacement, 'm')}",
             f"the initial shape at the vessel, {end:.6g} m",
             "the cable hangs on the vessel",
-            cure,
+            fix,
         )
     if abs(velocity) > 1e-9:
         yield Problem(
@@ -303,7 +303,7 @@ def vessel_at_the_start(
             f"e'(0) = {amount(velocity, 'm/s')}",
             "0 m/s",
             "the cable starts at rest, its upper end too",
-            cure,
+            fix,
         )
 
 

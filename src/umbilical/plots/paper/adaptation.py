@@ -81,7 +81,7 @@ def _scan(ax: Axes, peaks: xarray.DataArray) -> None:
     for k, (case, arm) in enumerate(pairs):
         values = peaks.sel(case=case, arm=arm).values
         lost = gains[np.isnan(values)]
-        name = f"{FAULT_WORDS[str(case)]}, {LOOKS[str(arm)].words}"
+        name = f"{FAULT_WORDS[str(case)]}, {LOOKS[str(arm)].text}"
         ax.plot(gains, values, ".-", color=COLOURS[k], linewidth=0.9, markersize=3, label=name)
         height = np.full(lost.size, 0.97 - 0.06 * k)
         ax.plot(lost, height, "x", color=COLOURS[k], markersize=3.5, transform=ax.get_xaxis_transform())

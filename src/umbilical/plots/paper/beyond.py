@@ -40,7 +40,7 @@ def draw_spacetime(data: xarray.Dataset) -> Figure:
     figure, panels = column(y.sizes["controller"], 1.45)
     for number, (ax, who) in enumerate(zip(panels, y["controller"].values, strict=True)):
         _cable(figure, ax, y.sel(controller=who), data["length"])
-        panel(ax, f"{letter(number)} {LOOKS[str(who)].words}", "$x$ [m]")
+        panel(ax, f"{letter(number)} {LOOKS[str(who)].text}", "$x$ [m]")
         ax.grid(visible=False)
     time_panels(panels, data)
     return figure
@@ -73,7 +73,7 @@ def draw_energy(data: xarray.Dataset) -> Figure:
             if WORK_DASHES[k % len(WORK_DASHES)]:
                 drawn.set_dashes(WORK_DASHES[k % len(WORK_DASHES)])
         ax.plot(one["time"], one["energy"], color=INK, linewidth=0.7, label="energy")
-        panel(ax, f"{letter(number)} {LOOKS[str(who)].words}", unit_label(data["energy"]))
+        panel(ax, f"{letter(number)} {LOOKS[str(who)].text}", unit_label(data["energy"]))
         ax.ticklabel_format(axis="y", style="sci", scilimits=(-3, 4), useMathText=True)
         ax.yaxis.get_offset_text().set_fontsize(TYPE - 1)
     time_panels(panels, data)

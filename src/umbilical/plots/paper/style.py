@@ -25,7 +25,7 @@ RESOLUTION = 300
 class Look(NamedTuple):
     """How one line is drawn, and its name in a legend. Colour never is the only difference."""
 
-    words: str
+    text: str
     colour: str
     dashes: tuple[float, ...] = ()
     width: float = 1.0
@@ -57,10 +57,10 @@ def column(rows: int, height: float, columns: int = 1) -> tuple[Figure, list[Axe
     return figure, list(panels.ravel())
 
 
-def line(ax: Axes, array: xarray.DataArray, who: str, words: str | None = None) -> None:
-    """One array over time in the look of ``who``; it is named in the legend, unless ``words`` is empty."""
+def line(ax: Axes, array: xarray.DataArray, who: str, text: str | None = None) -> None:
+    """One array over time in the look of ``who``; it is named in the legend, unless ``text`` is empty."""
     look = LOOKS[who]
-    name = look.words if words is None else words
+    name = look.text if text is None else text
     (drawn,) = ax.plot(array["time"].values, array.values, color=look.colour, linewidth=look.width, label=name or None)
     if look.dashes:
         drawn.set_dashes(look.dashes)
@@ -131,8 +131,8 @@ def raised(label: str) -> str:
     >>> raised("stuck value [rad2/s2]")
     'stuck value [rad$^2$/s$^2$]'
     """
-    words, bracket, unit = label.rpartition("[")
-    return words + bracket + re.sub(r"(?<=[a-z])(\d)", r"$^\1$", unit)
+    text, bracket, unit = label.rpartition("[")
+    return text + bracket + re.sub(r"(?<=[a-z])(\d)", r"$^\1$", unit)
 
 
 def log_axis(axis: Axis, ticks: int = 6) -> None:

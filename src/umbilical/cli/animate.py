@@ -7,7 +7,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from umbilical.cli.speech import say
+from umbilical.cli.output import print_result
 from umbilical.cli.targets import check_target
 
 
@@ -42,4 +42,4 @@ def animate(
     except ValueError as error:
         raise FileError(str(error)) from error
     written = files.write(target, page.encode("utf-8"), force=force)
-    say(f"{written}: {len(page) / 1e3:.0f} kB, plays {' and '.join(run.scenario.name for run in runs)}")
+    print_result(f"{written}: {len(page) / 1e3:.0f} kB, plays {' and '.join(run.scenario.name for run in runs)}")

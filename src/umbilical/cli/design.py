@@ -11,11 +11,11 @@ from typer import Argument, BadParameter, Option
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Plot, Thrust, numbers
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.cli.running import load_changed
+from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw, schema_beside
 
 if TYPE_CHECKING:
-    from umbilical.synthesis.rounds import Limits
+    from umbilical.synthesis.iterate import Limits
 
 Objective = Literal["ringdown", "rejection", "both"]
 
@@ -84,7 +84,7 @@ def _limits(words: str | None) -> Limits:
     Raises:
         BadParameter: another name, or not a positive number.
     """
-    from umbilical.synthesis.rounds import Limits
+    from umbilical.synthesis.iterate import Limits
 
     given = {}
     for word in words.split(",") if words else []:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from time import perf_counter
 
-from umbilical.cli.speech import say
+from umbilical.cli.output import print_result
 
 
 def warm_up() -> int:
@@ -22,6 +22,6 @@ def warm_up() -> int:
     for part in warming.PARTS:
         begun = perf_counter()
         warming.warm_up(part)
-        say(f"{part}: {perf_counter() - begun:.1f} s")
-    say(f"kept in {cache_folder()}")
+        print_result(f"{part}: {perf_counter() - begun:.1f} s")
+    print_result(f"kept in {cache_folder()}")
     return 0

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from umbilical.cli.progress import announce_compilation, bar, tell
+from umbilical.cli.progress import announce_compilation, bar
+from umbilical.cli.terminal import report
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -35,7 +36,7 @@ def confirm(found: Operability, height: float, seeds: int, jobs: int | None) -> 
     )
     workers = min(jobs or default_jobs(), seeds)
     where = f"{depth:.4g} m, Tp {period:.3g} s, heading {np.degrees(heading):.0f} deg, Hs {height:.3g} m"
-    tell(f"confirming at {where}: {seeds} seeds of {scenario.duration:.0f} s, {cost(scenario, seeds, workers)}")
+    report(f"confirming at {where}: {seeds} seeds of {scenario.duration:.0f} s, {cost(scenario, seeds, workers)}")
     announce_compilation(scenario)
     with bar("seeds of the sea") as advance:
         return run(scenario, found.criteria, height, settled=SETTLED, seeds=seeds, workers=workers, progress=advance)

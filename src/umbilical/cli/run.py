@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from typer import Argument, Option
 
 from umbilical.cli.options import Changes, Force, Json, Own, Plot
-from umbilical.cli.speech import say, say_json, tell
+from umbilical.cli.output import print_json, print_result, report
 from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.errors import OutputError, Problem, ScenarioError
 
@@ -50,14 +50,14 @@ def run(
 
     found = statics(chosen)
     if found and found.slope:
-        tell(f"{chosen.name}: {found}")
+        report(f"{chosen.name}: {found}")
     result = simulate_visibly(chosen, own_controller(controller, chosen))
     files = _write(result, out, plot, force)
     if as_json:
         known = {"files": files, "controller": controller, "statics": found and found._asdict()}
-        say_json(result.to_dict() | known)
+        print_json(result.to_dict() | known)
     else:
-        say(_report(result, files, scenario, controller))
+        print_result(_report(result, files, scenario, controller))
     return result.status.exit_code
 
 
@@ -69,7 +69,7 @@ def _check_size(scenario: Scenario, out: Path) -> None:
     if (size := result_size(scenario)) > (free := room(out.parent)):
         raise OutputError(f"{out}: the result takes {in_words(size)}, and the disk has {in_words(free)} left")
     if size >= LARGE:
-        tell(f"{out}: the result will take {in_words(size)}")
+        report(f"{out}: the result will take {in_words(size)}")
 
 
 def own_controller(name: str | None, scenario: Scenario) -> Controller | None:
@@ -118,7 +118,7 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     if out:
         files["result"] = str(run.save(out, force=force))
     if plot and run["time"].size < 2:
-        tell(f"{plot}: not drawn, the run ended before there was anything to draw")
+        report(f"{plot}: not drawn, the run ended before there was anything to draw")
         return files
     return files | draw(run.plot, plot, force=force)
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Force
-from umbilical.cli.speech import say
+from umbilical.cli.output import print_result
 from umbilical.cli.targets import PICTURES, check_target
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def plot(
         figure = as_figure(draw())
     except ValueError as error:
         raise BadParameter(str(error), param_hint="--kind") from error
-    say(f"plot: {save_figure(figure, target, force=force)}")
+    print_result(f"plot: {save_figure(figure, target, force=force)}")
 
 
 _CHOOSES = {"map": ("x", "y", "arm"), "sensitivity": ("arm",)}

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from umbilical.cli.options import Json
-from umbilical.cli.speech import say, say_json
+from umbilical.cli.output import print_json, print_result
 from umbilical.faces.text import table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
@@ -38,9 +38,9 @@ def doctor(
     """
     findings = examine()
     if as_json:
-        say_json(findings)
+        print_json(findings)
     else:
-        say("\n\n".join(f"{topic}\n{table(_rows(found))}" for topic, found in findings.items()))
+        print_result("\n\n".join(f"{topic}\n{table(_rows(found))}" for topic, found in findings.items()))
     return 0 if all(findings["packages"].values()) else 6
 
 

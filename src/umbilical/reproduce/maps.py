@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.reproduce.experiments import ARMS, BELIEVED, BOX, OBSERVERS, RATES, START, preset
-from umbilical.reproduce.points import FACTORS, Changes, Outcome, Point, gain_point, make_point, run_points
-from umbilical.reproduce.work import Progress
+from umbilical.reproduce.map_runs import FACTORS, Changes, Outcome, Point, gain_point, make_point, run_points
+from umbilical.reproduce.progress import Progress
 
 if TYPE_CHECKING:
     import xarray
@@ -121,7 +121,7 @@ MAPS = tuple(one.name for one in SLICES)
 NAMES = (*MAPS, GAIN)
 
 
-def compute_slices(names: Collection[str] = NAMES, progress: Progress | None = None) -> dict[str, xarray.Dataset]:
+def compute_maps(names: Collection[str] = NAMES, progress: Progress | None = None) -> dict[str, xarray.Dataset]:
     """The scan of the gain and the maps of these names, by name."""
     chosen = [one for one in SLICES if one.name in names]
     places = {one.name: dict(one.points()) for one in chosen}

@@ -8,8 +8,8 @@ from typing import Annotated, Literal
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Changes, Force
-from umbilical.cli.running import load_changed
-from umbilical.cli.speech import say
+from umbilical.cli.output import print_result
+from umbilical.cli.run import load_changed
 
 _RESULTS = ("csv", "mat")
 
@@ -52,20 +52,20 @@ def export(
         from umbilical.interop.c_code import to_c
 
         written = to_c(scenario, stem, prefix=prefix or "umb_", hold=hold, force=force)
-        say(f"export: {stem}: {', '.join(path.name for path in written)}")
+        print_result(f"export: {stem}: {', '.join(path.name for path in written)}")
     else:
         _refuse_options({"--prefix": prefix}, to)
         from umbilical.interop.fmu import to_fmu
 
         fmu = to_fmu(scenario, stem, hold=hold, force=force)
-        say(f"export: {fmu.path}: FMI 2.0 for co-simulation, {fmu.binaries}")
+        print_result(f"export: {fmu.path}: FMI 2.0 for co-simulation, {fmu.binaries}")
 
 
 def _export_result(file: Path, to: Literal["csv", "mat"], out: Path | None, force: bool) -> None:
     from umbilical.run import open_run
 
     written = open_run(file).export(out or file.with_suffix(f".{to}"), to, force=force)
-    say(f"export: {written}")
+    print_result(f"export: {written}")
 
 
 def _refuse_options(given: dict[str, object], to: str) -> None:

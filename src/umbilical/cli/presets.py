@@ -9,7 +9,7 @@ from typing import Annotated
 from typer import Argument, Option
 
 from umbilical.cli.options import Force
-from umbilical.cli.speech import say
+from umbilical.cli.output import print_result
 from umbilical.cli.targets import SCHEMA_LINE, schema_beside
 from umbilical.faces.text import table
 
@@ -40,10 +40,11 @@ def presets(
         written = files.write(target, (text if study else SCHEMA_LINE + text).encode(), force=force)
         beside = {} if study else schema_beside(written)
         lines = [f"copied: {written}", *(f"  {role} for editors: {path}" for role, path in beside.items())]
-        say("\n".join(lines))
-        say(f"  next: change it; `umbilical show {target}`; `umbilical {'sweep' if study else 'run'} {target}`")
+        print_result("\n".join(lines))
+        verb = "sweep" if study else "run"
+        print_result(f"  next: change it; `umbilical show {target}`; `umbilical {verb} {target}`")
     else:
-        say(_text(name) if name else _descriptions())
+        print_result(_text(name) if name else _descriptions())
 
 
 def _marked(text: str, source: str, target: Path) -> str:
@@ -77,12 +78,12 @@ def examples(
         if path.suffix in (".py", ".ipynb")
     }
     if copy is None:
-        say(table([(name, _purpose(path)) for name, path in found.items()]))
+        print_result(table([(name, _purpose(path)) for name, path in found.items()]))
         return
     for name, path in found.items():
         files.make_folder((copy / name).parent)
         files.write(copy / name, path.read_bytes(), force=force)
-    say(f"copied: {len(found)} files to {copy}\n  next: python {copy / 'first_run.py'}")
+    print_result(f"copied: {len(found)} files to {copy}\n  next: python {copy / 'first_run.py'}")
 
 
 def _examples() -> Path:
@@ -141,4 +142,4 @@ def schema(
     from umbilical import files
     from umbilical.scenario.document import schema_text
 
-    say(f"schema: {files.write(out, schema_text().encode(), force=force)}" if out else schema_text())
+    print_result(f"schema: {files.write(out, schema_text().encode(), force=force)}" if out else schema_text())

@@ -10,8 +10,8 @@ from typer import Argument, Option
 
 from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Anew, Changes, Jobs, Json, Resume, Trust
-from umbilical.cli.speech import tell
-from umbilical.cli.sweeping import load_changed_study, refuse_code_of_results
+from umbilical.cli.output import report
+from umbilical.cli.sweep import load_changed_study, refuse_code_of_results
 from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.faces.tuning import conclusion, document, text
 
@@ -64,7 +64,7 @@ def tune(
                 progress=advance,
             )
     except KeyboardInterrupt:
-        tell(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")
+        report(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")
         raise
     files = {"trials": str(folder / "tuning.json")}
     files |= {f"scenario {k}": str(folder / name) for k, name in enumerate(found.files, start=1)}

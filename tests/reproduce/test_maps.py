@@ -12,9 +12,9 @@ from umbilical.engine.simulate import simulate
 from umbilical.library import load
 from umbilical.reproduce.experiments import ARMS, BELIEVED, OBSERVERS, preset
 from umbilical.reproduce.ledger import Evidence
-from umbilical.reproduce.points import EARLY, FACTORS, GRID, Point, gain_point, make_point, run_points
+from umbilical.reproduce.map_runs import EARLY, FACTORS, GRID, Point, gain_point, make_point, run_points
+from umbilical.reproduce.maps import GAIN_CASES, PRESET_RATES, SLICES
 from umbilical.reproduce.regions import diverged, reversal, same_on_grids
-from umbilical.reproduce.slices import GAIN_CASES, PRESET_RATES, SLICES
 from umbilical.scenario import Scenario
 
 DEFAULT: dict[str, Any] = {}

@@ -1,6 +1,6 @@
 """What would mend a certificate that does not hold: another slope gain or, where none is found, a slower winch.
 
-Samples suggest. What is printed is itself proved, digit by digit: a cure that is followed is certified, and where
+Samples suggest. What is printed is itself proved, digit by digit: a fix that is followed is certified, and where
 nothing could be proved nothing is suggested.
 """
 
@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.certificate.attempt import Task, attempt
 from umbilical.analysis.certificate.conditions import SLACK, rates
 from umbilical.analysis.certificate.search import best_weights
 from umbilical.analysis.certificate.setting import Loop, Motion, sampled, slab_edges
+from umbilical.analysis.certificate.solve import Task, attempt
 from umbilical.errors import Problem
 from umbilical.relations.tension import tension
 from umbilical.scenario.winch import Winch
@@ -39,7 +39,7 @@ class Range(NamedTuple):
     high: float
 
 
-def cures(loop: Loop, task: Task) -> tuple[Problem, ...]:
+def fixes(loop: Loop, task: Task) -> tuple[Problem, ...]:
     """What was proved to mend it: a ``control.law.slope_gain``, else a slower winch, else nothing."""
     tried, rate = _sampled(loop, task.motion)
     found = _sampled_range(loop, task.motion, tried, rate)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json
-from umbilical.cli.speech import say, say_json
+from umbilical.cli.output import print_json, print_result
 from umbilical.faces.text import paragraph, table
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def _show_study(
     if Path(file).suffix != ".nc":
         study = load_study(file)
         document = {"study": study.to_dict(), "study_hash": study.hash}
-        say_json(document) if as_json else say(study_face.describe(study))
+        print_json(document) if as_json else print_result(study_face.describe(study))
         return
     result = open_study(file)
     if unknown := [name for name in (*metrics, *filter(None, [sensitivity])) if name not in result.metrics]:
@@ -69,11 +69,11 @@ def _show_study(
     if against is not None and against not in result.arms:
         raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
     if as_json:
-        say_json(study_face.document(result, {"result": file}, against, metrics, sensitivity))
+        print_json(study_face.document(result, {"result": file}, against, metrics, sensitivity))
     else:
         parts = [study_face.conclusion(result).headline, study_face.text(result, metrics, against)]
         parts += [study_face.sensitivity_text(result, sensitivity)] if sensitivity else []
-        say("\n\n".join(parts))
+        print_result("\n\n".join(parts))
 
 
 def _show_run(file: str, as_json: bool) -> None:
@@ -81,11 +81,11 @@ def _show_run(file: str, as_json: bool) -> None:
 
     run = open_run(file)
     if as_json:
-        say_json(run.to_dict() | {"files": {"result": file}})
+        print_json(run.to_dict() | {"files": {"result": file}})
         return
     sizes = ", ".join(f"{name} {size}" for name, size in run.data.sizes.items())
     origin = table([(name, str(run.data.attrs[name])) for name in _ORIGIN])
-    say(f"{run.summary()}\n\nholds: {sizes}\n{origin}")
+    print_result(f"{run.summary()}\n\nholds: {sizes}\n{origin}")
 
 
 def _show_scenario(source: str, as_json: bool) -> None:
@@ -98,7 +98,7 @@ def _show_scenario(source: str, as_json: bool) -> None:
     found = statics(scenario)
     if as_json:
         known = {"statics": found and found._asdict(), "notices": notices}
-        say_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, **known})
+        print_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, **known})
         return
     entries = [
         (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
@@ -107,7 +107,7 @@ def _show_scenario(source: str, as_json: bool) -> None:
     parts = [f"{scenario.name}, {scenario.hash[:12]}", paragraph(scenario.description), told, table(entries)]
     if scenario.assumed:
         parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
-    say("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))
+    print_result("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))
 
 
 _LONGEST = 48
@@ -143,6 +143,6 @@ def compare(
         whole = document(found)
         for run, file in zip(whole["runs"], files, strict=True):
             run["files"] = {"result": str(file)}
-        say_json(whole)
+        print_json(whole)
     else:
-        say(text(found))
+        print_result(text(found))

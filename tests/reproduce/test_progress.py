@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from umbilical.reproduce.experiments import EXPERIMENTS
-from umbilical.reproduce.work import parts
+from umbilical.reproduce.progress import parts
 from umbilical.studies.engines import in_order
 
 

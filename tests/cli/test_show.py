@@ -151,7 +151,7 @@ def test_doctor_knows_the_packages_and_the_cache(umbilical):
 
 
 def test_doctor_fails_where_a_package_is_missing(umbilical, monkeypatch):
-    monkeypatch.setattr("umbilical.cli.doctoring.NEEDED", ("numpy", "no-such-package"))
+    monkeypatch.setattr("umbilical.cli.doctor.NEEDED", ("numpy", "no-such-package"))
     done = umbilical("doctor")
     assert done.code == 6
     assert "not installed" in done.out

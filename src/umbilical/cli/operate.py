@@ -118,7 +118,7 @@ def _confirmed(
     found: Operability, height: float | None, seeds: int, jobs: int | None, files: dict[str, str], as_json: bool
 ) -> int:
     """Hold the height that was asked for, or the lowest limit, against the rope; the verdict is that of its runs."""
-    from umbilical.cli.confirming import confirm
+    from umbilical.cli.confirm import confirm
     from umbilical.faces import confirmation
 
     runs = confirm(found, height or float(found.limit[found.worst]), seeds, jobs)

@@ -8,8 +8,9 @@ from typer import Argument, Option
 
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
-from umbilical.cli.running import load_changed
+from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.terminal import report
 
 
 def snap(
@@ -33,8 +34,8 @@ def snap(
       umbilical snap work-class-3000m --seeds 20 --plot snaps.png
       umbilical snap work-class-3000m --set winch.length=1500 --risk 0.05  # 20 seeds are too few: exit code 7
     """
-    from umbilical.cli.confirming import cost
-    from umbilical.cli.progress import announce_compilation, bar, tell
+    from umbilical.cli.confirm import cost
+    from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies.engines import default_jobs
     from umbilical.studies.snap import check
     from umbilical.studies.snap import snap as study
@@ -42,7 +43,7 @@ def snap(
     check_target(plot, PICTURES, force=force)
     loaded, workers = load_changed(scenario, changes or []), min(jobs or default_jobs(), seeds)
     check(loaded, seeds)
-    tell(f"{seeds} seeds of {loaded.duration:g} s, {cost(loaded, seeds, workers)}")
+    report(f"{seeds} seeds of {loaded.duration:g} s, {cost(loaded, seeds, workers)}")
     announce_compilation(loaded)
     with bar("seeds of the sea") as advance:
         found = study(loaded, seeds, workers=workers, progress=advance)

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from umbilical.engine.simulate import measure
 from umbilical.library import load
 from umbilical.reproduce.experiments import BELIEVED, OBSERVER, START, preset
-from umbilical.reproduce.work import Progress
+from umbilical.reproduce.progress import Progress
 from umbilical.run import Status
 from umbilical.studies.engines import in_order
 

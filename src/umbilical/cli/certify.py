@@ -8,7 +8,7 @@ from typer import Argument, Option
 
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Plot
-from umbilical.cli.running import load_changed
+from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, check_target, draw
 
 if TYPE_CHECKING:

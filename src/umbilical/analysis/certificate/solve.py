@@ -1,6 +1,6 @@
 """Search and proof for one loop on one motion of the winch: weights, a rate in each slab, and whether both are proved.
 
-The samples only suggest a rate. What counts, for the verdict and for the cure alike, is the rate that was proved.
+The samples only suggest a rate. What counts, for the verdict and for the fix alike, is the rate that was proved.
 """
 
 from __future__ import annotations

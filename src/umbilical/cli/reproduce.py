@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Force, Json
-from umbilical.cli.speech import tell
+from umbilical.cli.output import report
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def reproduce(
     moved = moved_in(found)
     written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
     for one in moved:
-        tell(f"not as published: {one}")
+        report(f"not as published: {one}")
     return conclude(
         conclusion(found, moved, check=check),
         text=lambda: "\n".join(filter(None, [text(found), _files(found, out, written)])),
@@ -61,7 +61,7 @@ def reproduce(
 def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
     """The figures asked for, each once; refused if they are not there, are left out, or there is nothing to check."""
     from umbilical.reproduce import PICTURES
-    from umbilical.reproduce.slices import MAPS
+    from umbilical.reproduce.maps import MAPS
 
     unknown = [name for name in names if name not in PICTURES]
     if unknown:

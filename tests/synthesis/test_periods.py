@@ -7,8 +7,8 @@ import pytest
 import umbilical
 from umbilical.errors import ScenarioError
 from umbilical.synthesis.design import design
-from umbilical.synthesis.paces import pace, paced
-from umbilical.synthesis.rounds import design_within
+from umbilical.synthesis.iterate import design_within
+from umbilical.synthesis.periods import pace, paced
 from umbilical.synthesis.score import Demands
 from umbilical.synthesis.search import Task
 
@@ -44,8 +44,8 @@ def test_bounds_follow_the_period() -> None:
 @pytest.mark.slow
 def test_the_better_of_two_periods_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
     """By a short search, the same one for both."""
-    monkeypatch.setattr("umbilical.synthesis.rounds.GENERATIONS", 2)
-    monkeypatch.setattr("umbilical.synthesis.rounds.RESERVES", (1.0,))
+    monkeypatch.setattr("umbilical.synthesis.iterate.GENERATIONS", 2)
+    monkeypatch.setattr("umbilical.synthesis.iterate.RESERVES", (1.0,))
     monkeypatch.setattr("umbilical.synthesis.search.LOCAL_STEPS", 5)
     outcomes = []
 

@@ -8,9 +8,9 @@ from typer import Argument, Option
 
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Own, Plot, Thrust, numbers
+from umbilical.cli.output import report
 from umbilical.cli.progress import bar
-from umbilical.cli.running import load_changed, own_controller
-from umbilical.cli.speech import tell
+from umbilical.cli.run import load_changed, own_controller
 from umbilical.cli.targets import PICTURES, check_target, draw
 
 GRIDS, FINEST = (32, 64, 128), 256
@@ -58,7 +58,7 @@ def margins(
     finest = FINEST if grid is None else 0
     own = own_controller(controller, chosen)
     with bar("margins") as advance:
-        report = compute(
+        found = compute(
             chosen,
             numbers(lengths, "--lengths") or None,
             operating_thrust,
@@ -67,7 +67,7 @@ def margins(
             finest=finest,
             progress=advance,
         )
-    if plot and report.doubt:
-        tell(f"{plot}: not drawn, there are no margins to draw")
+    if plot and found.doubt:
+        report(f"{plot}: not drawn, there are no margins to draw")
         plot = None
-    return conclude_result(report, files=draw(report.plot, plot, force=force), as_json=as_json)
+    return conclude_result(found, files=draw(found.plot, plot, force=force), as_json=as_json)

@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
-from umbilical.cli.terminal import print_result as say
-from umbilical.cli.terminal import report as tell  # noqa: F401 (for the commands)
+from umbilical.cli.terminal import (
+    print_result,
+    report,  # noqa: F401 (for the commands)
+)
 from umbilical.errors import ScenarioError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
 from umbilical.faces.text import plain
@@ -26,9 +28,9 @@ EXIT_CODES = {
 }
 
 
-def say_json(document: Mapping[str, Any]) -> None:
+def print_json(document: Mapping[str, Any]) -> None:
     """One JSON object, to stdout."""
-    say(json.dumps(plain(document), indent=2, allow_nan=False))
+    print_result(json.dumps(plain(document), indent=2, allow_nan=False))
 
 
 def refusal(error: BaseException, text: str, code: int) -> dict[str, Any]:

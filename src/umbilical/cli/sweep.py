@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Anew, Changes, Force, Jobs, Json, Resume, Trust
-from umbilical.cli.speech import say, tell
+from umbilical.cli.output import print_result, report
 from umbilical.errors import FileError
 
 if TYPE_CHECKING:
@@ -56,10 +56,10 @@ def sweep(
     try:
         with bar(f"running {chosen.name}") as advance:
             found = run(
-                chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, tell=tell
+                chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, report=report
             )
     except KeyboardInterrupt:
-        tell(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
+        report(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
     where = {"result": str(folder / "study.nc")}
     return conclude(
@@ -139,6 +139,6 @@ def member(
         raise BadParameter(f"there are the arms {', '.join(arms)}", param_hint="--arm")
     text = draws.scenario(draws.member(number), arms.index(arm) if arm else 0).to_toml()
     if out:
-        say(f"scenario: {files.write(out, text.encode(), force=force)}")
+        print_result(f"scenario: {files.write(out, text.encode(), force=force)}")
     else:
-        say(text)
+        print_result(text)
