@@ -28,7 +28,7 @@ FOLDERS: dict[str, tuple[tuple[str, ...], str, dict[str, str]]] = {
     "plant": (("tests/plant", "tests/engine"), "nojit", NO_COMPILER),
     "control": (("tests/control", "tests/engine"), "nojit", NO_COMPILER),
     "engine": (("tests/engine",), "nojit", NO_COMPILER),
-    "analysis/certificate": (
+    "certificate": (
         tuple(f"tests/analysis/test_{name}.py" for name in ("proof", "bounds", "certificate")),
         "not slow",
         {},

@@ -15,8 +15,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from umbilical.analysis.certificate import Certificate, certify
     from umbilical.analysis.comparison import Comparison, compare
+    from umbilical.certificate import Certificate, certify
     from umbilical.control.contract import Command, Controller, Measurement
     from umbilical.engine.episode import Episode
     from umbilical.engine.simulate import simulate
@@ -45,19 +45,19 @@ if TYPE_CHECKING:
     from umbilical.run import Run, Status, open_run
     from umbilical.scenario import Scenario
     from umbilical.screening import load_operation, lower, operate
+    from umbilical.stability.margins import margins
     from umbilical.studies.load import load_study
     from umbilical.studies.results import StudyResult, open_study
     from umbilical.studies.study import Study
     from umbilical.studies.sweep import sweep
     from umbilical.studies.tune import tune
     from umbilical.synthesis.design import design
-    from umbilical.synthesis.margins import margins
 
 __version__ = "0.1.0"
 
 # Imported when first used, so that `import umbilical` costs milliseconds and compiles nothing.
 _HOMES = {
-    "Certificate": "umbilical.analysis.certificate",
+    "Certificate": "umbilical.certificate",
     "Command": "umbilical.control.contract",
     "Comparison": "umbilical.analysis.comparison",
     "Controller": "umbilical.control.contract",
@@ -68,14 +68,14 @@ _HOMES = {
     "Status": "umbilical.run",
     "Study": "umbilical.studies.study",
     "StudyResult": "umbilical.studies.results",
-    "certify": "umbilical.analysis.certificate",
+    "certify": "umbilical.certificate",
     "compare": "umbilical.analysis.comparison",
     "design": "umbilical.synthesis.design",
     "load": "umbilical.library",
     "load_operation": "umbilical.screening",
     "load_study": "umbilical.studies.load",
     "lower": "umbilical.screening",
-    "margins": "umbilical.synthesis.margins",
+    "margins": "umbilical.stability.margins",
     "open_run": "umbilical.run",
     "open_study": "umbilical.studies.results",
     "operate": "umbilical.screening",

@@ -9,18 +9,18 @@ import pytest
 import umbilical
 import umbilical.errors
 from umbilical import plots
-from umbilical.analysis.certificate import Certificate
 from umbilical.analysis.comparison import Comparison
+from umbilical.certificate import Certificate
 from umbilical.reproduce.reproduction import Reproduction
 from umbilical.result import ResultFaces
 from umbilical.run import Run
 from umbilical.screening.lower import Lowering
 from umbilical.screening.operate import Operability
 from umbilical.screening.weather import Weather
+from umbilical.stability.margins import MarginReport
 from umbilical.studies.results import StudyResult
 from umbilical.studies.tune import Tuned
 from umbilical.synthesis.design import Design
-from umbilical.synthesis.margins import MarginReport
 from umbilical.verify import Verification
 
 RESULTS = (

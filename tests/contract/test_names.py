@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pkgutil
 import subprocess
 import sys
 
@@ -67,6 +68,13 @@ def test_the_names_are_these():
 @pytest.mark.parametrize("name", umbilical.__all__)
 def test_a_name_leads_somewhere_and_explains_itself(name):
     assert inspect.getdoc(getattr(umbilical, name))
+
+
+def test_no_module_has_the_name_of_a_function():
+    # Importing `umbilical.margins` as a module would set that attribute, in place of the function.
+    modules = {module.name for module in pkgutil.iter_modules(umbilical.__path__)}
+    assert {"stability", "synthesis", "run"} <= modules
+    assert sorted(modules & NAMES) == []
 
 
 def test_a_misspelt_name_is_an_attribute_error():

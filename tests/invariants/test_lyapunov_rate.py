@@ -11,8 +11,8 @@ from scipy.integrate import cumulative_simpson
 import umbilical
 from tests.support.certificates import GAIN
 from tests.support.scenarios import run, sine
-from umbilical.analysis.certificate import Weights
-from umbilical.analysis.certificate.lyapunov import boundary_function, boundary_rates, cable_function, cable_rates
+from umbilical.certificate import Weights
+from umbilical.certificate.lyapunov import boundary_function, boundary_rates, cable_function, cable_rates
 from umbilical.studies.audit import _READ, ideal_loop
 
 TOLERANCE = 2e-4

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.certificate.loads import jumps, rate, size
+from umbilical.certificate.loads import jumps, rate, size
 from umbilical.errors import ScenarioError
 from umbilical.library.admit import admit
 from umbilical.plant import regular, signals

@@ -126,10 +126,10 @@ import numpy as np
 import umbilical
 from umbilical.plant.checks.motion import tension, wave_speed
 from umbilical.plant.checks.steps import chosen_step, grid_near_the_payload, wave_step, waves_that_leave
-from umbilical.analysis.certificate.lyapunov import cable_function, cable_rates
-from umbilical.analysis.certificate.records import Weights
-from umbilical.analysis.margins import judge
-from umbilical.synthesis.grid import on_grid
+from umbilical.certificate.lyapunov import cable_function, cable_rates
+from umbilical.certificate.records import Weights
+from umbilical.stability.judgement import judge
+from umbilical.stability.grid import on_grid
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.initial import initial_slopes
 from umbilical.relations.tension import hanging_of, net_gravity

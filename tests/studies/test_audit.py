@@ -10,7 +10,7 @@ import pytest
 
 import umbilical
 from tests.support.certificates import GAIN, HALF_SINE, fixed, hauled_in
-from umbilical.analysis.certificate import bound
+from umbilical.certificate import bound
 from umbilical.studies.audit import audit, ideal_loop, identity_residual, largest_ratio, lyapunov
 
 EXCESS, IDENTITY = 1e-3, 2e-3

@@ -15,7 +15,7 @@ import pytest
 import umbilical
 from tests.support.certificates import GAIN
 from umbilical import Certificate
-from umbilical.analysis.certificate import bound
+from umbilical.certificate import bound
 from umbilical.errors import ScenarioError
 from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov
 

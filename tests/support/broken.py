@@ -10,7 +10,6 @@ import pytest
 
 from tests.support.scenarios import sine
 from umbilical import Scenario
-from umbilical.analysis import impedance
 from umbilical.control.allocation import adaptive
 from umbilical.control.motor import backstepping
 from umbilical.control.motor import disturbance as of_motor
@@ -22,6 +21,7 @@ from umbilical.plant.checks import motion
 from umbilical.plant.forces import drag
 from umbilical.relations import tension
 from umbilical.scenario.document import look_up
+from umbilical.stability import impedance
 from umbilical.verify import engine
 
 Break = Callable[[pytest.MonkeyPatch], None]

@@ -8,7 +8,7 @@ import numpy as np
 
 import umbilical
 from umbilical import Scenario
-from umbilical.analysis.certificate.setting import Loop
+from umbilical.certificate.setting import Loop
 
 GAIN = "control.law.slope_gain"
 FREE: dict[str, Any] = {"environment.payload_force": []}

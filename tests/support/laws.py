@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.analysis.laws import READINGS, root_slope
-from umbilical.analysis.linear import Linear
 from umbilical.control.cascade import Motors, Outer
 from umbilical.control.outer.table import BOUNDARY, PD
+from umbilical.engine.linearise import Linear
 from umbilical.relations.formulas import MotorConstants
 from umbilical.relations.tension import net_gravity, tension
+from umbilical.stability.laws import READINGS, root_slope
 
 
 def outer_law(outer: Outer) -> Linear:

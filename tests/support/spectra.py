@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from umbilical import Scenario
-from umbilical.analysis.impedance import HangingCable, payload_stiffness, waves
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.multistep import EXPLICIT
+from umbilical.stability.impedance import HangingCable, payload_stiffness, waves
 
 
 def step_poles(scenario: Scenario, time: float = 0.0) -> Any:

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.margins import judge
-from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.errors import ScenarioError
 from umbilical.plots import plot_margins
+from umbilical.stability.judgement import judge
+from umbilical.stability.margins import margins
+from umbilical.stability.sampled import loop_response, sampled_loop
 from umbilical.synthesis.design import _limited_by, _missing, check_design, design
 from umbilical.synthesis.iterate import Limits, Outcome, Side, design_within, side
-from umbilical.synthesis.margins import margins
 from umbilical.synthesis.score import Demands, Effort, Judge
 from umbilical.synthesis.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
 from umbilical.synthesis.trial import attempt, rms_above

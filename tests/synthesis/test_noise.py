@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.analysis.laws import root_slope
-from umbilical.analysis.sampled import loop_response, sampled_loop
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.laws import root_slope
+from umbilical.stability.margins import margins
+from umbilical.stability.sampled import loop_response, sampled_loop
 from umbilical.synthesis import iterate
 from umbilical.synthesis.design import _missing
 from umbilical.synthesis.iterate import Limits, Outcome, Side
-from umbilical.synthesis.margins import margins
 from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, commanded_spectrum, reading_noise, voltage_noise
 from umbilical.synthesis.score import Demands, Judge, Score
 from umbilical.synthesis.search import Knob, Task, explore, follow

@@ -7,8 +7,8 @@ from math import degrees
 import numpy as np
 from words import item, millimetres, paragraph, rows_of
 
-from umbilical.analysis.margins import judge, usual_lengths
 from umbilical.scenario import Scenario
+from umbilical.stability.judgement import judge, usual_lengths
 from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult
 from umbilical.studies.statistics import against, at, beyond, percent, ratios, told

@@ -1,1 +1,1 @@
-"""Judgement: what a run says, computed from its arrays and never from the engine."""
+"""What a run says, computed from its arrays and never from the engine."""

@@ -12,7 +12,7 @@ from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, check_target, draw
 
 if TYPE_CHECKING:
-    from umbilical.analysis.certificate import Certificate
+    from umbilical.certificate import Certificate
     from umbilical.scenario import Scenario
     from umbilical.studies.audit import Audit
 
@@ -43,7 +43,7 @@ def certify(
 
 
 def _certify(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
-    from umbilical.analysis.certificate import certify as prove
+    from umbilical.certificate import certify as prove
 
     certificate = prove(scenario)
     if not audit or not certificate.holds:

@@ -52,7 +52,7 @@ def margins(
     """
     chosen = load_changed(scenario, changes or [])
     check_target(plot, PICTURES, force=force)
-    from umbilical.synthesis.margins import margins as compute
+    from umbilical.stability.margins import margins as compute
 
     elements = GRIDS if grid is None else [round(number) for number in numbers(grid, "--grid") if number]
     finest = FINEST if grid is None else 0

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from umbilical.analysis.linear import Linear, Names, differences
 from umbilical.control.contract import TipReadings
+from umbilical.engine.linearise import Linear, Names, differences
 from umbilical.engine.loop import World
 from umbilical.engine.sensing import read_truth
 from umbilical.engine.setup import set_up

@@ -12,7 +12,7 @@ from umbilical.faces.text import shown_unit, table
 from umbilical.quantities import CERTIFICATE
 
 if TYPE_CHECKING:
-    from umbilical.analysis.certificate import Certificate, Inequality
+    from umbilical.certificate import Certificate, Inequality
     from umbilical.studies.audit import Audit
 
 
@@ -92,7 +92,7 @@ def _row(inequality: Inequality) -> tuple[str, ...]:
 
 def _numbers(certificate: Certificate) -> list[tuple[str, float]]:
     """Single numbers of a certificate by name."""
-    from umbilical.analysis.certificate import lyapunov_of
+    from umbilical.certificate import lyapunov_of
 
     names = ("rate", "fixed_length_rate", "exact_rate", "spent", "residual")
     start = lyapunov_of(certificate.loop, certificate.weights, certificate.start)
@@ -120,7 +120,7 @@ def _proof(certificate: Certificate) -> str:
 
 def _consequences(certificate: Certificate) -> Iterator[str]:
     """Bounds of V and of the displacement from the scenario's own start."""
-    from umbilical.analysis.certificate import largest_bounds
+    from umbilical.certificate import largest_bounds
 
     found = largest_bounds(certificate)
     if found:
@@ -149,7 +149,7 @@ def _audit_report(audit: Audit) -> Iterator[str]:
 
 def document(certificate: Certificate, audit: Audit | None = None) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
-    from umbilical.analysis.certificate import largest_bounds
+    from umbilical.certificate import largest_bounds
 
     bounds = largest_bounds(certificate)
     return {

@@ -9,11 +9,11 @@ from umbilical.faces.conclusion import Conclusion
 from umbilical.faces.text import table
 
 if TYPE_CHECKING:
-    from umbilical.analysis.limits import Limit
-    from umbilical.analysis.margins import Judgement
-    from umbilical.synthesis.grid import GridJudgement
-    from umbilical.synthesis.margins import MarginReport
-    from umbilical.synthesis.matrix import Counted, MatrixCheck
+    from umbilical.stability.grid import GridJudgement
+    from umbilical.stability.judgement import Judgement
+    from umbilical.stability.limits import Limit
+    from umbilical.stability.margins import MarginReport
+    from umbilical.stability.matrix import Counted, MatrixCheck
 
 
 SHOWN_MODES = 3

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.analysis.laws import READINGS
-from umbilical.analysis.margins import check, usual_lengths, usual_thrust
-from umbilical.analysis.sampled import sampled_loop
 from umbilical.errors import MissingPartnerError, expect
 from umbilical.scenario.scenario import Scenario
-from umbilical.synthesis.margins import check_request
-from umbilical.synthesis.period import linear_period
+from umbilical.stability.judgement import check, usual_lengths, usual_thrust
+from umbilical.stability.laws import READINGS
+from umbilical.stability.margins import check_request
+from umbilical.stability.period import linear_period
+from umbilical.stability.sampled import sampled_loop
 
 
 def to_control(
@@ -23,7 +23,7 @@ def to_control(
     Args:
         scenario: its grid, motors, sensors and controller are used.
         length: cable length, m, the winch standing still; if left out, the longest of the run.
-        operating_thrust: as for :func:`umbilical.synthesis.margins.margins`.
+        operating_thrust: as for :func:`umbilical.stability.margins.margins`.
 
     Returns:
         Discrete-time ``control.StateSpace`` objects at the period of the outer law:

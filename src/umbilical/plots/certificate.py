@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.analysis.certificate import bound, cable_bound
+from umbilical.certificate import bound, cable_bound
 from umbilical.plots.figure import COLOURS, ONE_ROW, QUIET, new_figure
 from umbilical.quantities import CERTIFICATE
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from umbilical.analysis.certificate import Certificate
+    from umbilical.certificate import Certificate
     from umbilical.studies.audit import Audit
 
 SAMPLES = 801

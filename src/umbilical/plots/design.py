@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.analysis.sampled import loop_response
 from umbilical.plots.figure import COLOURS, QUIET, at_sigma, new_figure
+from umbilical.stability.sampled import loop_response
 from umbilical.synthesis.score import changes as demanded
 
 if TYPE_CHECKING:

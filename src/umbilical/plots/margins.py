@@ -10,15 +10,15 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Circle
 
-from umbilical.analysis.sampled import loop_response
 from umbilical.plots.figure import COLOURS, QUIET, as_figure, new_figure
+from umbilical.stability.sampled import loop_response
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from umbilical.analysis.margins import Judgement
-    from umbilical.synthesis.margins import MarginReport
+    from umbilical.stability.judgement import Judgement
+    from umbilical.stability.margins import MarginReport
 
 LOWEST = 1e-2
 """rad/s; nothing happens below."""

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.analysis.certificate.lyapunov import boundary_function, cable_function
-from umbilical.analysis.certificate.records import Weights
+from umbilical.certificate.lyapunov import boundary_function, cable_function
+from umbilical.certificate.records import Weights
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.run import Run
 

@@ -7,14 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.certificate import certify, largest_bounds
-from umbilical.analysis.certificate.advice import best_rate
-from umbilical.analysis.certificate.setting import loop_of, sampled, slab_edges
-from umbilical.analysis.impedance import hanging_cable
-from umbilical.analysis.margins import judge, usual_lengths, usual_thrust
-from umbilical.analysis.nyquist import stability, sweep
-from umbilical.analysis.sampled import sampled_loop
+from umbilical.certificate import certify, largest_bounds
+from umbilical.certificate.advice import best_rate
+from umbilical.certificate.setting import loop_of, sampled, slab_edges
 from umbilical.scenario import Scenario
+from umbilical.stability.impedance import hanging_cable
+from umbilical.stability.judgement import judge, usual_lengths, usual_thrust
+from umbilical.stability.nyquist import stability, sweep
+from umbilical.stability.sampled import sampled_loop
 from umbilical.studies.engines import in_order
 
 BETA = "control.law.slope_gain"

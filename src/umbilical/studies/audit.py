@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from umbilical.analysis.certificate import Certificate, Start, Weights, bound, cable_bound, certify
-from umbilical.analysis.certificate.lyapunov import (
+from umbilical.certificate import Certificate, Start, Weights, bound, cable_bound, certify
+from umbilical.certificate.lyapunov import (
     boundary_function,
     boundary_rates,
     cable_function,

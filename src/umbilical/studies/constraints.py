@@ -23,7 +23,7 @@ def certificate(scenario: Scenario) -> float:
     >>> certificate(ringdown.replace({"control.law.slope_gain": 5.0})) < 0.0
     True
     """
-    from umbilical.analysis.certificate import certify  # mpmath and a search behind it
+    from umbilical.certificate import certify  # mpmath and a search behind it
 
     try:
         found = certify(scenario, fix=False)
@@ -43,7 +43,7 @@ def margins(scenario: Scenario) -> float:
     >>> 0.0 < margins(load("paper")) < 1.0  # stable, but not with twice the thrust
     True
     """
-    from umbilical.analysis.margins import judge, usual_lengths
+    from umbilical.stability.judgement import judge, usual_lengths
 
     try:
         found = [judge(scenario, length) for length in usual_lengths(scenario)]

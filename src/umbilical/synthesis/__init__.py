@@ -1,1 +1,1 @@
-"""Which gains are safe, and which are best for given thrusters: what needs the engine and its judgement together."""
+"""Design of gains: search on the linear loop against demanded margins, then one simulation."""

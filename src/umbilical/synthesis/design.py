@@ -8,15 +8,15 @@ from typing import ClassVar
 
 import numpy as np
 
-from umbilical.analysis.impedance import hanging_cable
-from umbilical.analysis.margins import check, usual_lengths, usual_thrust
-from umbilical.analysis.sampled import sampled_loop
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.impedance import hanging_cable
+from umbilical.stability.judgement import check, usual_lengths, usual_thrust
+from umbilical.stability.margins import check_request
+from umbilical.stability.sampled import sampled_loop
 from umbilical.synthesis.iterate import Limits, Outcome, Side, badness, design_within, side
-from umbilical.synthesis.margins import check_request
 from umbilical.synthesis.periods import pace, paced
 from umbilical.synthesis.score import Demands, Score
 from umbilical.synthesis.search import Objective, Task, Values, inner_knobs
@@ -97,7 +97,7 @@ def design(
         limits: on voltage, speed and chatter in a simulation of the scenario; where gains exceed them, the search
             is repeated with less effort of the motors. And on the noise that sensors put on a voltage, which every
             search keeps.
-        operating_thrust: as for :func:`umbilical.synthesis.margins.margins`.
+        operating_thrust: as for :func:`umbilical.stability.margins.margins`.
         progress: called with the share done, 0 to 1.
 
     Raises:

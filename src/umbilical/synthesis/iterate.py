@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from umbilical.analysis.margins import usual_lengths
-from umbilical.analysis.sampled import sampled_loop
 from umbilical.scenario.scenario import Scenario
-from umbilical.synthesis.margins import MarginReport, margins
+from umbilical.stability.judgement import usual_lengths
+from umbilical.stability.margins import MarginReport, margins
+from umbilical.stability.sampled import sampled_loop
 from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, voltage_noise
 from umbilical.synthesis.score import Demands, Effort, Judge, Score
 from umbilical.synthesis.search import Task, Values, explore, follow, rounded

@@ -18,9 +18,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.impedance import Waves
-from umbilical.analysis.sampled import SampledLoop, drives_at, loop_response
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.impedance import Waves
+from umbilical.stability.sampled import SampledLoop, drives_at, loop_response
 from umbilical.synthesis.score import ARC, Judge
 from umbilical.synthesis.trial import CHATTER
 

@@ -16,11 +16,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.impedance import HangingCable, hanging_cable, waves
-from umbilical.analysis.limits import Margins, later, scaled, turned
-from umbilical.analysis.nyquist import Factor, unchanged
-from umbilical.analysis.sampled import ALIASES, LoopResponse, SampledLoop, delivered, demands_to_volts, loop_response
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.impedance import HangingCable, hanging_cable, waves
+from umbilical.stability.limits import Margins, later, scaled, turned
+from umbilical.stability.nyquist import Factor, unchanged
+from umbilical.stability.sampled import ALIASES, LoopResponse, SampledLoop, delivered, demands_to_volts, loop_response
 from umbilical.synthesis.trial import CHATTER
 
 POINTS, FEW_POINTS = 1000, 140
@@ -190,6 +190,6 @@ class Judge:
 
 
 def _unstable(loop: SampledLoop, endless: np.ndarray) -> int:
-    """Nyquist's count on a cable without an end; as in :func:`umbilical.analysis.nyquist.stability`."""
+    """Nyquist's count on a cable without an end; as in :func:`umbilical.stability.nyquist.stability`."""
     angle = np.unwrap(np.angle(endless))
     return round(loop.own_poles - (angle[-1] - angle[0]) / np.pi)

@@ -13,9 +13,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from umbilical.analysis.sampled import SampledLoop, sampled_loop
 from umbilical.relations.water import payload_inertia
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.sampled import SampledLoop, sampled_loop
 from umbilical.synthesis.noise import voltage_noise
 from umbilical.synthesis.score import SPARE, Demands, Effort, Judge, Score
 

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from umbilical.analysis.impedance import hanging_cable, payload_stiffness, waves
 from umbilical.engine.linear import linearise_plant
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.impedance import hanging_cable, payload_stiffness, waves
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check
 from umbilical.verify.engine import sine

@@ -1,0 +1,160 @@
+"""What follows from a certificate for V: its start, the residual that loads leave, and its bound over the run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.certificate.loads import Loads
+from umbilical.certificate.ranges import ROUNDING
+from umbilical.certificate.records import Certificate, Ranges, Start, Weights
+from umbilical.certificate.setting import Loop
+from umbilical.plant import signals
+from umbilical.plant.signals import spline
+from umbilical.plant.top import top_at
+from umbilical.relations.tension import tension
+from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
+from umbilical.scenario.scenario import Scenario
+
+POINTS = 400
+"""Intervals along the cable for integrals."""
+
+
+class Residual(NamedTuple):
+    """``V' <= -(th - spent) V + power``: spent in 1/s, power (the Th of the paper) in W; ``cable``: without V3, W."""
+
+    spent: float
+    power: float
+    cable: float
+
+
+def residual_of(loop: Loop, ranges: Ranges, weights: Weights, rate: float, loads: Loads) -> Residual:
+    """What bounded loads leave of the decay.
+
+    Half the rate pays for loads along the cable, if there are any: that makes their share of the final bound
+    smallest. D' is that of the force on the ROV alone, since an ideal thruster delivers what is commanded.
+    """
+    spent = max(0.5 * rate, 0.0) if loads.cable else 0.0
+    of_cable = 0.0
+    if loads.cable:
+        of_cable = loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
+    of_cable += _of_vessel(loop, ranges, weights, loads.vessel_velocity)
+    if loop.k_s is None:
+        of_law = weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
+    else:
+        of_law = weights.boundary * loads.force_rate**2 / (2.0 * loop.k_s**2 * loop.vs)
+    return Residual(spent, of_cable + of_law, of_cable)
+
+
+def _of_vessel(loop: Loop, ranges: Ranges, weights: Weights, velocity: float) -> float:
+    if velocity == 0.0:
+        return 0.0
+    slowest, fastest = ranges.speed
+    pays = slowest + weights.vessel
+    if not pays.min() > 0.0:
+        return float("inf")
+    least = np.clip(0.0, slowest, fastest)  # the smallest |v| of each piece
+    top = np.maximum(*(tension(length, ranges.net.high, loop.hanging) for length in ranges.length))
+    pull = top - loop.rho * least**2
+    largest = float((pull / (2.0 * pays) + 0.5 * loop.rho * (fastest - weights.vessel)).max())
+    return (1.0 + ROUNDING) * largest * velocity**2
+
+
+def start_of(loop: Loop, scenario: Scenario) -> Start:
+    """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
+    motion = top_at(scenario.winch, 0.0)
+    length, net = float(motion.length), float(motion.net_gravity(loop.g))
+    x = np.linspace(0.0, length, 16 * POINTS + 1)
+    pull = tension(length - x, net, loop.hanging)
+    slope = _initial_slope(scenario, length, pull)(x)
+    strain = 0.5 * np.trapezoid(pull * slope**2, x)
+    force = float(signals.evaluate(scenario.environment.payload_force, 0.0))
+    return Start(float(strain), float(loop.beta * slope[-1]), force)
+
+
+def lyapunov_of(loop: Loop, weights: Weights, start: Start) -> float:
+    """V at the start, J."""
+    of_force = 0.0 if loop.k_s is None else start.missed**2 / (loop.k_s * loop.vs)
+    return start.cable + 0.5 * weights.boundary * (loop.m * start.error**2 + of_force)
+
+
+def _initial_slope(scenario: Scenario, length: float, pull: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
+    """y_x of the initial shape as a function of x, where the tension is ``pull``, N."""
+    shape = scenario.initial
+    match shape:
+        case SineShape():
+            wave = shape.half_waves * np.pi / length
+            return lambda x: shape.amplitude * wave * np.cos(wave * x)
+        case GaussianShape():
+            return lambda x: _gaussian_slope(shape, length - x)
+        case StaticShape():
+            return lambda x: shape.force / pull
+        case TableShape():
+            return lambda x: np.asarray(spline(shape.positions, shape.displacements)(x / length, 1)) / length
+        case _:
+            return np.zeros_like
+
+
+def _gaussian_slope(shape: GaussianShape, above: np.ndarray) -> np.ndarray:
+    q = (above - shape.distance) / shape.width
+    return 2.0 * shape.amplitude * q * np.exp(-q * q) / shape.width
+
+
+def reach_of(loop: Loop, ranges: Ranges, weights: Weights, sigma: float) -> float:
+    """Bound of ``|y - e|/sqrt(V)`` at ``x = sigma l``, m/sqrt(J), the largest over the run.
+
+    ``V1 + V2 >= 1/2 int (T - rho Q^2) p^2``, what is left when W is chosen worst, and by Cauchy and Schwarz
+    ``(y - e)^2 <= int p^2 (T - rho Q^2) int 1/(T - rho Q^2)``. In each piece of time T is taken smallest and Q
+    largest; one over what is concave is convex, so the trapezoid rule errs upward.
+    """
+    share = np.linspace(0.0, sigma, POINTS + 1)
+    shortest, longest, lightest = (part.ravel()[:, None] for part in (*ranges.length, ranges.net.low))
+    above = 1.0 - share
+    pull = np.minimum(*(tension(above * length, lightest, loop.hanging) for length in (shortest, longest)))
+    left = (1.0 - ROUNDING) * pull - (1.0 + ROUNDING) * loop.rho * (
+        weights.vessel + weights.cross * share * longest
+    ) ** 2
+    if not left.min() > 0.0:
+        return float("inf")
+    integral = longest.ravel() * np.trapezoid(1.0 / left, share, axis=1)
+    return (1.0 + ROUNDING) * float(np.sqrt(2.0 * integral.max()))
+
+
+def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -> np.ndarray:
+    """Certified bound of V at increasing instants of the run, J, shape of ``t``.
+
+    Between two instants V decays at the slab's rate towards the residual. At a jump of the tension V may grow by
+    ``certificate.stretch``, at one of the force on the ROV its root by ``sqrt(eta/(2 k_s vs)) |jump|``.
+
+    Args:
+        certificate: from :func:`umbilical.certify`.
+        t: instants, s, increasing, shape (samples,).
+        start: V at the start, J; that of the scenario if left out.
+
+    >>> import umbilical
+    >>> certificate = umbilical.certify(umbilical.load("ringdown", {"control.law.slope_gain": 5.0}))
+    >>> bound(certificate, np.array([0.0, 60.0]), start=1.0).round(2).tolist()
+    [1.0, 0.47]
+    """
+    loop, instants = certificate.loop, np.asarray(t, dtype=np.float64)
+    value, now = lyapunov_of(loop, certificate.weights, certificate.start) if start is None else start, 0.0
+    scale = 0.0 if loop.k_s is None else float(np.sqrt(certificate.weights.boundary / (2.0 * loop.k_s * loop.vs)))
+    steps = {at: scale * size for at, size in certificate.loads.force_jumps}
+    marks, found = np.unique(np.concatenate([instants, certificate.edges, list(steps)])), {}
+    stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
+    for mark in marks.tolist():
+        value = _advance(certificate, value, now, mark, certificate.residual)
+        if mark > 0.0:  # what happens at the start is in the start
+            value = (np.sqrt(value * stretch.get(mark, 1.0)) + steps.get(mark, 0.0)) ** 2
+        found[mark], now = value, mark
+    return np.array([found[instant] for instant in instants.tolist()])
+
+
+def _advance(certificate: Certificate, value: float, begin: float, end: float, power: float) -> float:
+    """V after some time within one slab: the solution of ``V' = -(th - spent) V + power``."""
+    slab = int(np.clip(np.searchsorted(certificate.edges, begin, side="right") - 1, 0, certificate.rates.size - 1))
+    rate, dt = float(certificate.rates[slab]) - certificate.spent, end - begin
+    gained = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
+    return value * float(np.exp(-rate * dt)) + (power * gained if power else 0.0)

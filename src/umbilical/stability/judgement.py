@@ -1,0 +1,163 @@
+"""What the linearised sampled loop is worth at one length: stability, margins, modes, reflection.
+
+>>> import umbilical
+>>> found = judge(umbilical.load("paper"), 450.0)
+>>> found.stable, 1.0 < found.margins.gain_high.size < 4.0
+(True, True)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from umbilical.errors import Problem, ScenarioError, expect
+from umbilical.plant import signals
+from umbilical.plant.top import top_at
+from umbilical.scenario.scenario import Scenario
+from umbilical.stability.impedance import HangingCable, hanging_cable
+from umbilical.stability.limits import Margins, margins
+from umbilical.stability.nyquist import Stability, Sweep, near_poles, stability, sweep
+from umbilical.stability.sampled import SampledLoop, loop_response, sampled_loop
+
+MODES = 5
+"""Modes that are listed."""
+POINTS = 400
+"""Frequencies of the reflection."""
+USUAL_SLOPE = 0.01
+"""Slope at the ROV whose pull stands in as the operating thrust where no steady force acts."""
+INSTANTS = 1001
+"""Instants of a run at which a mean force and the lengths are taken."""
+
+
+class Mode(NamedTuple):
+    """A mode of the cable in closed loop: frequency, rad/s; decay, 1/s; damping ratio."""
+
+    frequency: float
+    decay: float
+    damping_ratio: float
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """The loop at one length.
+
+    Attributes:
+        length: m.
+        stability: how many poles are unstable, and which motion grows fastest.
+        margins: None where the loop is unstable and has none.
+        modes: the first modes of the cable in closed loop.
+        frequency: rad/s, of the reflection.
+        reflection: \\|R\\| of the controlled ROV, share of a displacement that it sends back.
+        sweep: the opened loop over frequency.
+    """
+
+    length: float
+    stability: Stability
+    margins: Margins | None
+    modes: tuple[Mode, ...]
+    frequency: np.ndarray
+    reflection: np.ndarray
+    sweep: Sweep
+
+    @property
+    def stable(self) -> bool:
+        """Whether no pole is outside the unit circle."""
+        return self.stability.unstable == 0
+
+
+def judge(scenario: Scenario, length: float, operating_thrust: float | None = None) -> Judgement:
+    """Stability, margins, modes and reflection of a scenario's loop, the winch standing at a length.
+
+    Args:
+        scenario: its cable, ROV, motors, sensors and controller are used.
+        length: m.
+        operating_thrust: steady thrust at which the motors are linearised, N; if left out, that of
+            :func:`usual_thrust`.
+
+    Raises:
+        ScenarioError: there is no loop, or one that cannot be linearised.
+    """
+    check(scenario)
+    thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
+    return judge_loop(hanging_cable(scenario, length), sampled_loop(scenario, thrust))
+
+
+def judge_loop(cable: HangingCable, loop: SampledLoop) -> Judgement:
+    """The same from cable and loop."""
+    swept = sweep(cable, loop)
+    found = stability(swept)
+    frequency = np.geomspace(swept.w[0], swept.w[-1], POINTS)
+    response = loop_response(cable, loop, 1j * frequency)
+    return Judgement(
+        length=cable.length,
+        stability=found,
+        margins=margins(swept) if found.unstable == 0 else None,
+        modes=_modes(swept),
+        frequency=frequency,
+        reflection=np.abs(response.reflection()),
+        sweep=swept,
+    )
+
+
+def _modes(s: Sweep) -> tuple[Mode, ...]:
+    """Poles of the closed loop, from the round trips that reproduce a wave, mended by Newton's method."""
+    poles = [_polished(s, p) for p in near_poles(s, MODES)]
+    return tuple(Mode(abs(p.imag), -p.real, -p.real / abs(p)) for p in poles if np.isfinite(p))
+
+
+def _polished(s: Sweep, p: complex, steps: int = 30) -> complex:
+    """The zero of 1 - echo R next to p, 1/s; NaN where the search leaves its neighbourhood."""
+    start, size = p, 1e-6
+    for _ in range(steps):
+        here, beside = (1.0 - _trip(s, q) for q in (p, p + 1j * size))
+        move = -here * 1j * size / (beside - here)
+        p += move
+        if abs(p - start) > 2.0 * np.pi / s.cable.round_trip or p.imag <= 0.0:
+            return complex(np.nan)
+        if abs(move) < 1e-10 * abs(p):
+            break
+    return p
+
+
+def _trip(s: Sweep, p: complex) -> complex:
+    r = loop_response(s.cable, s.loop, np.array([p]))
+    return complex((r.echo * r.reflection())[0])
+
+
+def usual_thrust(scenario: Scenario) -> float:
+    """Thrust at which the motors are linearised, N: the mean force on the ROV, at least the pull of a small slope.
+
+    At no thrust at all a propeller has none to first order, and the linearised loop would be open.
+    """
+    force = signals.evaluate(scenario.environment.payload_force, np.linspace(0.0, scenario.duration, INSTANTS))
+    pull = USUAL_SLOPE * hanging_cable(scenario, 1.0).tip_tension
+    return max(abs(float(np.mean(force))), pull)
+
+
+def usual_lengths(scenario: Scenario) -> tuple[float, ...]:
+    """Shortest, middle and longest length of the run, m; one where the winch stands still."""
+    lengths = top_at(scenario.winch, np.linspace(0.0, scenario.duration, INSTANTS)).length
+    low, high = float(np.min(lengths)), float(np.max(lengths))
+    return (low,) if high - low < 1e-9 * high else (low, 0.5 * (low + high), high)
+
+
+def check(scenario: Scenario) -> None:
+    """Refuse a law of the scenario's own that has no margins.
+
+    Raises:
+        ScenarioError: no controller, or rates of the slope that an ideal thruster makes jump at every sample.
+    """
+    expect(scenario, "Scenario", "load")
+    law = scenario.control.law
+    if not law.closes_loop:
+        wanted, reason = "a law that closes a loop", "margins say what a loop survives"
+        problem = Problem("control.law.kind", law.kind, wanted, reason, "kind = 'boundary' or 'pd'")
+        raise ScenarioError([problem], scenario.name)
+    if scenario.ideal_thruster and law.reads_rates and law.boundary_gains:
+        reason = "with an ideal thruster the rate of the slope jumps at every sample, which has no linear response"
+        fix = "rates = 'observer', or ideal_thruster = false"
+        problem = Problem("control.law.rates", "sensor", "observer, or motors in the loop", reason, fix)
+        raise ScenarioError([problem], scenario.name)

@@ -1,0 +1,111 @@
+"""The exact cable against classical results; source: verification.md items 1 to 4."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.sparse import identity
+from scipy.sparse.linalg import spsolve
+
+from tests.support.spectra import tip_response
+from umbilical.engine.linear import linearise_plant
+from umbilical.stability.impedance import (
+    HangingCable,
+    hanging_cable,
+    payload_stiffness,
+    upward_asymptote,
+    wave_number,
+    waves,
+)
+from umbilical.verify.water import string
+
+PAPER = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 20.0, 500.0)
+CONSTANT = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 0.0, 400.0)
+
+
+def mobility(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+    """What rings: zero at the frequencies of the cable with a free ROV."""
+    w = waves(cable, p)
+    stiffness = payload_stiffness(cable, p)
+    return (stiffness - w.up + w.echo * (stiffness - w.down)) / (stiffness - w.up)
+
+
+@pytest.mark.parametrize(
+    "frequency", [0.1536771590334, 0.483646205031, 0.8881725784718, 1.30776502146, 1.731946215684, 2.158067989623]
+)
+def test_it_rings_at_the_bessel_frequencies(frequency):
+    assert abs(mobility(PAPER, np.array([1j * frequency]))[0]) < 1e-10
+    assert abs(mobility(PAPER, np.array([1.001j * frequency]))[0]) > 1e-4
+
+
+def test_static_stiffness():
+    """P/y = rho g / ln((m + rho l)/m)."""
+    displacement, slope = tip_response(PAPER, np.array([1e-5j]))
+    assert displacement[0] == pytest.approx(np.log(3.0) / 20.0, rel=1e-6)
+    assert slope[0] == pytest.approx(1.0 / 5000.0, rel=1e-6)
+
+
+def test_constant_tension_with_a_mass():
+    """cot b = (m/(rho l)) b with b = w l/c."""
+    for b in (0.8603335890194, 3.4256184594817):  # of cot b = b: m = rho l
+        cable = HangingCable(2.0, 0.0, 800.0, 0.0, 5000.0, 0.0, 400.0)
+        assert abs(mobility(cable, np.array([1j * b * 50.0 / 400.0]))[0]) < 1e-9
+
+
+def test_a_light_cable_tends_to_constant_tension():
+    p = np.array([0.3j, 2.0j])
+    nearly = HangingCable(2.0, 0.01, 500.0, 3.0, 5000.0, 1e-6, 400.0)
+    constant = HangingCable(2.0, 0.01, 500.0, 3.0, 5000.0, 0.0, 400.0)
+    for one, other in zip(tip_response(nearly, p), tip_response(constant, p), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-5)
+
+
+def test_reflection_of_mass_and_damper():
+    """R = (Z - k - i w m)/(Z + k + i w m), the velocity's sign included."""
+    cable = HangingCable(2.0, 0.0, 500.0, 30.0, 5000.0, 0.0, 400.0)
+    p = 1j * np.array([0.01, 0.2, 3.0])
+    w = waves(cable, p)
+    stiffness = payload_stiffness(cable, p)
+    expected = (100.0 - 30.0 - p * 500.0) / (100.0 + 30.0 + p * 500.0)
+    np.testing.assert_allclose(-(stiffness - w.down) / (stiffness - w.up), expected, rtol=1e-12)
+
+
+def test_damping_takes_its_share_of_every_round_trip():
+    damped = HangingCable(2.0, 0.001, 500.0, 0.0, 5000.0, 20.0, 500.0)
+    echo = np.abs(waves(damped, 1j * np.array([5.0, 50.0, 500.0])).echo)
+    np.testing.assert_allclose(echo, np.exp(-0.001 / 4.0 * damped.round_trip), rtol=1e-5)
+
+
+def test_the_asymptote_of_an_endless_cable_is_of_second_order():
+    p = 1j * np.array([20.0, 200.0])
+    miss = np.abs(upward_asymptote(PAPER, p) / waves(PAPER, p).up - 1.0)
+    assert miss[0] < 1e-5
+    assert miss[0] / miss[1] == pytest.approx(100.0, rel=0.01)
+    bare = np.abs(-PAPER.tip_tension * wave_number(PAPER, p) / waves(PAPER, p).up - 1.0)
+    assert (bare > 50.0 * miss).all()  # the taper of the tension is needed
+
+
+def test_round_trip_is_the_slope_of_the_echo():
+    p = 1j * np.array([100.0, 100.001])
+    echo = waves(PAPER, p).echo
+    assert PAPER.round_trip / 2.0 == pytest.approx(7.32, abs=0.001)
+    assert -np.angle(echo[1] / echo[0]) / 0.001 == pytest.approx(PAPER.round_trip, rel=1e-6)
+
+
+def test_pieces_of_the_same_damping_are_one_cable():
+    p = np.array([1e-3 + 0.05j, 0.3j, 2.0 + 5.0j])
+    whole = HangingCable(2.0, 0.8, 500.0, 3.0, 5000.0, 20.0, 500.0)
+    cut = HangingCable(2.0, 0.8, 500.0, 3.0, 5000.0, 20.0, 500.0, pieces=((100.0, 0.8), (250.0, 0.8), (150.0, 0.8)))
+    for one, other in zip(waves(whole, p), waves(cut, p), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-10, atol=1e-15)
+
+
+def test_a_sheared_current_damps_along_the_cable_as_the_engine_has_it():
+    """One even damping in its place misses the slope per force by two thirds."""
+    current = {"depths": [0.0, 1000.0], "speeds": [0.5, 0.1]}
+    scenario = string(1000.0, environment__water__current=current, grid__elements=32)
+    plant = linearise_plant(scenario)
+    p = np.array([0.01, 0.1, 1.0]) * 1j + 1e-4
+    matrices = (q * identity(plant.a.shape[0], format="csc") - plant.a for q in p)
+    grid = np.array([(plant.c @ spsolve(matrix.tocsc(), plant.b[:, 0].astype(complex)))[:2] for matrix in matrices]).T
+    np.testing.assert_allclose(tip_response(hanging_cable(scenario, 1000.0), p), grid, rtol=5e-3)
