@@ -24,18 +24,25 @@ import numpy
 from numba.core import config as numba_config
 from numba.core import types
 from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import CompilerBase, DefaultPassBuilder
+from numba.core.compiler import CompilerBase
 from numba.core.compiler_machinery import FunctionPass, register_pass
-from numba.core.typed_passes import NativeLowering, NopythonTypeInference
+from numba.core.typed_passes import (
+    AnnotateTypes,
+    NoPythonBackend,
+    NoPythonSupportedFeatureValidation,
+    NopythonTypeInference,
+    PreLowerStripPhis,
+)
 from numba.extending import register_jitable
 
+from umbilical.inlining import lean, untyped
 from umbilical.kernel_cache import folder_for, is_whole, seal
-from umbilical.lowering import LowerDirectly, shared_scopes
+from umbilical.lowering import LowerDirectly
 
 config: Any = numba_config  # its settings are made at run time, unknown to type checkers
 
 _FLOORS_WITH_KERNELS = ("relations", "plant", "control", "engine")
-_BESIDES = ("compile.py", "frames.py", "lowering.py")
+_BESIDES = ("compile.py", "frames.py", "inlining.py", "lowering.py")
 """Files outside these floors that the compiled code depends on."""
 _PACKAGE = Path(__file__).parent
 
@@ -92,8 +99,8 @@ def expected_time() -> float:
 
 
 _SHORT_PIECE = 60_000
-_KERNELS_TO_SHORT_PIECE = 1000.0
-"""Processor time of the one over that of the other; 960 to 1030 were measured, half as much again in water."""
+_KERNELS_TO_SHORT_PIECE = 800.0
+"""Processor time of the one over that of the other; 760 to 900 were measured, half as much again in water."""
 
 
 class _Whole(JITCodeLibrary):
@@ -143,14 +150,15 @@ class _Part(_Whole):
 
 
 class _Compiler(CompilerBase):
-    """numba's own pipeline with another library for the code; no collection of garbage meanwhile, a tenth of it."""
+    """The passes of numba's that kernels need; no collection of garbage meanwhile, a tenth of the time."""
 
     library: type[JITCodeLibrary] = _Whole
 
     def define_pipelines(self) -> list[Any]:
-        passes = DefaultPassBuilder.define_nopython_pipeline(self.state)
-        passes.add_pass_after(_ChooseLibrary, NopythonTypeInference)
-        passes.passes = [(LowerDirectly if p is NativeLowering else p, what) for p, what in passes.passes]
+        passes = untyped(self.state, {})
+        typed = (NopythonTypeInference, _ChooseLibrary, PreLowerStripPhis, AnnotateTypes)
+        for one in (*typed, NoPythonSupportedFeatureValidation, LowerDirectly, NoPythonBackend):
+            passes.add_pass(one, one.__name__)
         passes.finalize()
         self.state.metadata["library"] = self.library
         return [passes]
@@ -159,7 +167,7 @@ class _Compiler(CompilerBase):
         enabled = gc.isenabled()
         gc.disable()
         try:
-            with shared_scopes():
+            with lean():
                 return super().compile_extra(func)
         finally:
             if enabled:

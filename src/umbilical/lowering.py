@@ -8,8 +8,6 @@ each of these is a hundred instructions that LLVM has to take out again.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 from numba.core import ir, types
@@ -67,19 +65,3 @@ class LowerDirectly(NativeLowering):
 
     _name = "umbilical_lowering"
     lowering_class: Any = _Lower
-
-
-@contextmanager
-def shared_scopes() -> Iterator[None]:
-    """Let blocks that are taken into another function keep their scope, instead of a copy of all variables each.
-
-    For use under numba's compiler lock.
-    """
-    scope: Any = ir.Scope
-    nested = "__deepcopy__" in vars(scope)
-    scope.__deepcopy__ = lambda self, memo: self
-    try:
-        yield
-    finally:
-        if not nested:
-            del scope.__deepcopy__
