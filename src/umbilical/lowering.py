@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
+from llvmlite import ir as llvm
 from numba.core import ir, types
 from numba.core.analysis import compute_cfg_from_blocks, compute_use_defs
 from numba.core.compiler_machinery import register_pass
@@ -59,9 +60,51 @@ class _Lower(Lower):
         """Nothing: no references are counted."""
 
 
+class _Distinct(llvm.MDValue):
+    """A piece of metadata that is no other's equal, as LLVM asks of what names a loop."""
+
+    def descr(self, buf: Any) -> None:
+        super().descr(buf)
+        buf[-2] = f"distinct {buf[-2]}"
+
+
+class _LowerRows(_Lower):
+    """Tells LLVM that no turn of a loop reads what another writes, so that it need not find out: see ``row_kernel``."""
+
+    def lower_function_body(self) -> Any:
+        self._places = self._metadata()
+        tail = super().lower_function_body()
+        for block in self.function.blocks:
+            for step in block.instructions:
+                of_array = isinstance(step, (llvm.instructions.LoadInstr, llvm.instructions.StoreInstr))
+                if of_array and not isinstance(step.operands[-1], llvm.instructions.AllocaInstr):
+                    step.set_metadata("llvm.access.group", self._places)
+        return tail
+
+    def lower_inst(self, inst: Any) -> None:
+        super().lower_inst(inst)
+        if isinstance(inst, ir.Jump) and self.blkmap[inst.target].is_terminated:  # back to the head of a loop
+            loop = self._metadata()
+            independent = self.module.add_metadata(["llvm.loop.parallel_accesses", self._places])
+            loop.operands = (loop, independent)
+            end: Any = self.builder.block
+            end.terminator.set_metadata("llvm.loop", loop)
+
+    def _metadata(self) -> _Distinct:
+        return _Distinct(self.module, (), name=str(len(self.module.metadata)))
+
+
 @register_pass(mutates_CFG=True, analysis_only=False)
 class LowerDirectly(NativeLowering):
     """numba's pass with that class."""
 
     _name = "umbilical_lowering"
     lowering_class: Any = _Lower
+
+
+@register_pass(mutates_CFG=True, analysis_only=False)
+class LowerRows(NativeLowering):
+    """The same for kernels along rows."""
+
+    _name = "umbilical_lowering_rows"
+    lowering_class: Any = _LowerRows

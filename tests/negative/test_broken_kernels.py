@@ -65,8 +65,8 @@ EDITS = {
     ),
     "transport in the flux between elements": Edit(
         "plant/cable.py",
-        "flow[f] = velocity - transport * slope",
-        "flow[f] = velocity + transport * slope",
+        "flow[f] = fma(-transport, slope, velocity)",
+        "flow[f] = fma(transport, slope, velocity)",
         ("moving end, paying out at 5 m/s", "moving end, hauling in at 4 m/s"),
     ),
     "the material velocity in the drag across": Edit(

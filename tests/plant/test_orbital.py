@@ -128,7 +128,7 @@ def rope(**changes: Any) -> Scenario:
 def test_a_rope_feels_it_in_three_directions(stage: int, at: float, systems: list[Any]) -> None:
     scenario, t, dt = rope(systems=systems), 71.3, 0.02
     inputs = RopeSampler(scenario).sample(Steps(np.array([t]), np.array([t + dt]), np.zeros(0)))
-    place, found = inputs.plane.world["wave_place"][0], np.zeros((3, 6))
+    place, found = inputs.plane.world["wave_place"][:, 0], np.zeros((3, 6))
     stir(inputs.water, inputs.world[0], inputs.plane.orbits, place[0], place[1])
     largest = abs(exact(scenario.environment, 14.7, 80.0)).max()
     for row, height in zip(found, (-10.0, -20.0, -70.0), strict=True):

@@ -23,7 +23,7 @@ from umbilical.plant.cable import (
     march,
 )
 from umbilical.plant.current import Flow, make_flow
-from umbilical.plant.exogenous import END, START, Exogenous, Inputs
+from umbilical.plant.exogenous import END, MIDDLE, START, Exogenous, Inputs
 from umbilical.plant.forces import given, tension
 from umbilical.plant.forces.force import add_power
 from umbilical.plant.forces.table import (
@@ -99,8 +99,8 @@ class PlantState(NamedTuple):
     Attributes:
         now: one record.
         motors: one record per motor.
-        blocks: slopes and velocities, their last rates and their fluxes, shape (5, 5, 2 n), see ``plant/cable.py``.
-        faces: flux where elements meet, shape (2, 2 n).
+        blocks: slopes and velocities, and their last rates, shape (4, 5, 2 n), see ``plant/cable.py``.
+        faces: fluxes where elements meet, shape (2, n + 1).
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
         water: what it does at the nodes.
@@ -131,7 +131,7 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         now=Instant.many(1),
         motors=MotorState.many(n),
         blocks=make_blocks(initial_slopes(scenario)),
-        faces=np.zeros((2, 2 * elements)),
+        faces=np.zeros((2, elements + 1)),
         starts=np.zeros(elements + 1),
         loads=np.zeros(loads),
         water=make_flow(elements),
@@ -178,11 +178,11 @@ def enter(plant: Plant, state: PlantState, inputs: Inputs, i: int, wet: bool) ->
 @glue
 def take_inputs(plant: Plant, state: PlantState, inputs: Inputs, i: int, column: int, wet: bool) -> None:
     """The outside world at start or end of step i."""
-    state.now[0].outside = inputs.world[i, column]
+    state.now[0].outside = inputs.world[column, i]
     for k in range(state.loads.size):
         state.loads[k] = inputs.loads[i, k, column]
     for k in range(state.motors.size):
-        state.motors[k].outside = inputs.motors[i, k, column]
+        state.motors[k].outside = inputs.motors[column, i, k]
     if wet:
         flow_past(plant.forces, plant.cable, state.now[0].ends, state.water, state.now[0].outside, inputs.orbits)
 
@@ -221,8 +221,8 @@ def derive(plant: Plant, state: PlantState, half: float, wet: bool) -> None:
 def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision) -> None:
     """All motors over step i under the voltages that are held."""
     for k in range(decision.size):
-        voltage, outside = decision[k].motor_voltage, inputs.motors[i, k]
-        advance_motor(plant.motors[k], state.motors[k], inputs.dt[i], voltage, outside)
+        voltage, middle, end = decision[k].motor_voltage, inputs.motors[MIDDLE, i, k], inputs.motors[END, i, k]
+        advance_motor(plant.motors[k], state.motors[k], inputs.dt[i], voltage, middle, end)
 
 
 @glue
@@ -237,7 +237,7 @@ def march_cable(plant: Plant, state: PlantState, newest: int, wet: bool) -> None
     ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water, wet) - pull) / cable.payload_inertia
     old, older = (newest + 2) % 3, (newest + 1) % 3
     loss = moment.speed / moment.length + plant.forces.cable_decay
-    march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], cable.moving, loss, w)
+    march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], loss, w)
     ends.tip_velocity += w[0] * ends.tip_rates[newest] + w[1] * ends.tip_rates[old] + w[2] * ends.tip_rates[older]
 
 
@@ -275,9 +275,10 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
 def arrive(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision, wet: bool) -> None:
     """The outside world at the end of step i, the motors' way there, and what all that pushes the ROV with."""
     dt, now = inputs.dt[i], state.now[0]
-    take_inputs(plant, state, inputs, i, END, wet)
     if not plant.ideal:
         advance_motors(plant, state, inputs, i, decision)
+    take_inputs(plant, state, inputs, i, END, wet)
+    if not plant.ideal:
         now.thrust = thrust(plant.motors, state.motors)
     push_payload(plant, now, dt)
 

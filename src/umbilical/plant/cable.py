@@ -25,9 +25,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import glue, kernel
+from umbilical.compile import fma, glue, kernel, row_kernel
 from umbilical.frames import Frame, real, vector
-from umbilical.plant.elements import DERIVATIVE, W0, W1, W2
+from umbilical.plant.elements import DERIVATIVE, NODES, W0, W1, W2
 from umbilical.plant.exogenous import Exogenous
 from umbilical.plant.layout import positions, to_elements
 from umbilical.relations.tension import (
@@ -44,18 +44,16 @@ from umbilical.relations.tension import (
 from umbilical.relations.water import in_water, payload_inertia
 from umbilical.scenario.scenario import Scenario
 
-# Derivative on the reference element. Nodes lie symmetrically, so it turns even functions into odd ones and odd
-# ones into even ones: kept as the two halves, it needs half the multiplications. Constants, for the compiler.
-# Row j of the first half acts on ((f0 + f4)/2, (f1 + f3)/2, f2), of the second on ((f0 - f4)/2, (f1 - f3)/2).
-D0_EVEN, D1_EVEN = ((float(r[0] + r[4]), float(r[1] + r[3]), float(r[2])) for r in DERIVATIVE[:2])
-D0_ODD, D1_ODD, D2_ODD = ((float(r[0] - r[4]), float(r[1] - r[3])) for r in DERIVATIVE[:3])
+N1, N2, N3 = (float(x) for x in 0.5 * (NODES[1:4] + 1.0))  # places of the inner nodes in their element, 0 to 1
 TIP_ROW = tuple(float(d) for d in DERIVATIVE[4])
 LIFT = 1.0 / W0
-
-# Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants, their fluxes.
-PRESENT, RATES, FLUX = 0, 1, 4
-BLOCKS = 5
-LEFT, RIGHT = range(2)  # rows of the faces, shape (2, 2 n): flux at the left and at the right end of each element
+# Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants.
+PRESENT, RATES = 0, 1
+BLOCKS = 4
+FLOW, PULL = range(2)  # rows of the faces, shape (2, n + 1): the two fluxes where elements meet, both ends included
+Two = tuple[float, float]
+Three = tuple[float, float, float]
+Five = tuple[float, float, float, float, float]
 
 
 class Ends(Frame):
@@ -71,6 +69,22 @@ class Ends(Frame):
     current_heave = real()
     current_factor = real()
     current_rate = real()
+
+
+class Derivative(NamedTuple):
+    """d/dsigma in an element, with the part that an element's own flux has in ``LIFT (f* - f)`` at its two ends.
+
+    Nodes lie symmetrically, so it turns even functions into odd ones and odd ones into even ones: kept as the two
+    halves, it needs half the multiplications. Row j of the first half acts on ``(f0 + f4, f1 + f3, f2)``, of the
+    second on ``(f0 - f4, f1 - f3)``; rows 3 and 4 mirror rows 1 and 0.
+    """
+
+    even0: Three
+    even1: Three
+    odd0: Two
+    odd1: Two
+    odd2: Two
+    lift: float
 
 
 class Cable(NamedTuple):
@@ -90,8 +104,7 @@ class Cable(NamedTuple):
     """A = 1 - sigma at the nodes, shape (5, n): distance from the ROV over l."""
     above_faces: np.ndarray
     """A at the interfaces, vessel and ROV included, shape (n + 1,)."""
-    moving: np.ndarray
-    """1 at the velocities of a block, 0 at its slopes, shape (5, 2 n): what damping acts on."""
+    derivative: Derivative
 
 
 class Moment(NamedTuple):
@@ -129,8 +142,16 @@ def make_cable(scenario: Scenario) -> Cable:
         payload_inertia=payload_inertia(scenario.payload),
         above=np.ascontiguousarray(to_elements(above)),
         above_faces=np.ascontiguousarray(above[::4]),
-        moving=np.tile(np.repeat([0.0, 1.0], scenario.grid.elements), (5, 1)),
+        derivative=make_derivative(scenario.grid.elements),
     )
+
+
+def make_derivative(elements: int) -> Derivative:
+    """The derivative in elements of equal length; the reference element is 2 wide."""
+    inside = 2.0 * elements * (DERIVATIVE + LIFT * np.diag([1.0, 0.0, 0.0, 0.0, -1.0]))
+    even0, even1 = ((0.5 * float(r[0] + r[4]), 0.5 * float(r[1] + r[3]), float(r[2])) for r in inside[:2])
+    odd0, odd1, odd2 = ((0.5 * float(r[0] - r[4]), 0.5 * float(r[1] - r[3])) for r in inside[:3])
+    return Derivative(even0, even1, odd0, odd1, odd2, 2.0 * elements * LIFT)
 
 
 @glue
@@ -151,14 +172,14 @@ def at_moment(cable: Cable, outside: Exogenous) -> Moment:
 
 
 def make_blocks(slopes: np.ndarray) -> np.ndarray:
-    """The cable at rest (Dy/Dt = 0) with the slopes Y_sigma, m, shape (5, n), as a state (5, 5, 2 n)."""
+    """The cable at rest (Dy/Dt = 0) with the slopes Y_sigma, m, shape (5, n), as a state (4, 5, 2 n)."""
     elements = slopes.shape[1]
     blocks = np.zeros((BLOCKS, 5, 2 * elements))
     blocks[PRESENT, :, :elements] = slopes
     return blocks
 
 
-@kernel
+@row_kernel
 def meet(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment) -> None:
     """Flux at the interfaces inside the cable, from the two waves that run into each, and the power it takes, W.
 
@@ -171,24 +192,17 @@ def meet(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, mom
     foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
     rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
     before, w_before, after, w_after = x[4, :n], x[4, n:], x[0, :n], x[0, n:]
-    flow, pull = faces[LEFT, :n], faces[LEFT, n:]
+    flow, pull = faces[FLOW], faces[PULL]
     for f in range(1, n):
-        transport, square = speed * above[f] - slip, foot + rise * above[f]
+        transport, square = fma(speed, above[f], -slip), fma(rise, above[f], foot)
         wave_speed = sqrt(square)
         p, q, u, w = before[f - 1] * scale, after[f] * scale, w_before[f - 1], w_after[f]
         step, w_step = q - p, w - u
-        slope, velocity = 0.5 * (p + q + w_step / wave_speed), 0.5 * (u + w + step * wave_speed)
-        impedance = cable.line_inertia * wave_speed
-        losses[f] = impedance * (transport * step * w_step - 0.5 * (w_step * w_step + square * step * step))
-        flow[f] = velocity - transport * slope
-        pull[f] = scale * (square * slope - transport * velocity)
-    # What flows into an element on its left has left its neighbour on the right. A loop of its own: fewer arrays in
-    # one loop, and the compiler does several interfaces at once.
-    flow_out, pull_out = faces[RIGHT, :n], faces[RIGHT, n:]
-    for f in range(1, n):
-        flow_out[f - 1] = flow[f]
-    for f in range(1, n):
-        pull_out[f - 1] = pull[f]
+        slope, velocity = 0.5 * (p + q + w_step / wave_speed), 0.5 * fma(step, wave_speed, u + w)
+        flow[f] = fma(-transport, slope, velocity)
+        pull[f] = scale * fma(square, slope, -transport * velocity)
+        lost = 0.5 * fma(w_step, w_step, square * step * step)
+        losses[f] = cable.line_inertia * wave_speed * fma(transport * step, w_step, -lost)
 
 
 @kernel
@@ -209,70 +223,89 @@ def look_at_ends(cable: Cable, x: np.ndarray, ends: Ends, moment: Moment) -> Non
 @kernel
 def meet_ends(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, moment: Moment) -> None:
     """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
-    n = faces.shape[1] // 2
+    n = faces.shape[1] - 1
     length, slip = moment.length, moment.slip
     foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
     head = tension(length, moment.net, moment.across) / cable.line_inertia
     enters = moment.speed - slip
     top, tip = moment.vessel + enters * ends.vessel_slope, ends.tip_velocity - slip * ends.tip_slope
-    faces[LEFT, 0] = moment.vessel
-    faces[LEFT, n] = (head * ends.vessel_slope - enters * top) / length
-    faces[RIGHT, n - 1] = ends.tip_velocity
-    faces[RIGHT, 2 * n - 1] = (foot * ends.tip_slope + slip * tip) / length
+    faces[FLOW, 0] = moment.vessel
+    faces[PULL, 0] = (head * ends.vessel_slope - enters * top) / length
+    faces[FLOW, n] = ends.tip_velocity
+    faces[PULL, n] = (foot * ends.tip_slope + slip * tip) / length
     top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - tip
     losses[0] = -cable.line_inertia * (sqrt(head) + enters) * top_step * top_step
     losses[n] = -cable.line_inertia * (sqrt(foot) + slip) * tip_step * tip_step
 
 
 @kernel
-def flux(cable: Cable, x: np.ndarray, out: np.ndarray, moment: Moment) -> None:
-    """The brackets of the two conservation laws at every node."""
+def differentiate(d: Derivative, f: Five, left: float, right: float) -> Five:
+    """d/dsigma of a flux at the nodes of an element, with what it is where it meets its neighbours."""
+    f0, f1, middle, f3, f4 = f
+    ends, inner, end_step, inner_step = f0 + f4, f1 + f3, f0 - f4, f1 - f3
+    odd0 = fma(d.even0[0], ends, fma(d.even0[1], inner, d.even0[2] * middle))
+    odd1 = fma(d.even1[0], ends, fma(d.even1[1], inner, d.even1[2] * middle))
+    even0 = fma(d.odd0[0], end_step, d.odd0[1] * inner_step)
+    even1 = fma(d.odd1[0], end_step, d.odd1[1] * inner_step)
+    even2 = fma(d.odd2[0], end_step, d.odd2[1] * inner_step)
+    return even0 + fma(-d.lift, left, odd0), even1 + odd1, even2, even1 - odd1, even0 - fma(-d.lift, right, odd0)
+
+
+@row_kernel
+def rates_inside(cable: Cable, x: np.ndarray, faces: np.ndarray, out: np.ndarray, moment: Moment) -> None:
+    """out: d/dsigma of the brackets of the two conservation laws, at every node.
+
+    A loop for each, because the addresses of all rows in one are more than a processor has registers for.
+    """
     n = x.shape[1] // 2
-    scale, speed, slip = 1.0 / moment.length, moment.speed, moment.slip
-    foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
-    rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
-    for j in range(5):
-        above, slope, velocity, flow, pull = cable.above[j], x[j, :n], x[j, n:], out[j, :n], out[j, n:]
-        for e in range(n):
-            p, w, transport = scale * slope[e], velocity[e], speed * above[e] - slip
-            flow[e] = w - transport * p
-            pull[e] = scale * ((foot + rise * above[e]) * p - transport * w)
+    scale, d = 1.0 / moment.length, cable.derivative
+    speed, slip = scale * moment.speed, -scale * moment.slip
+    foot = scale * scale * tension(0.0, moment.net, moment.across) / cable.line_inertia
+    rise = scale * scale * tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
+    above, n1, n2, n3, n4 = cable.above_faces, N1 / n, N2 / n, N3 / n, 1.0 / n
+    x0, x1, x2, x3, x4 = x[0, :n], x[1, :n], x[2, :n], x[3, :n], x[4, :n]
+    w0, w1, w2, w3, w4 = x[0, n:], x[1, n:], x[2, n:], x[3, n:], x[4, n:]
+    s0, s1, s2, s3, s4 = out[0, :n], out[1, :n], out[2, :n], out[3, :n], out[4, :n]
+    r0, r1, r2, r3, r4 = out[0, n:], out[1, n:], out[2, n:], out[3, n:], out[4, n:]
+    left, right = faces[FLOW, :n], faces[FLOW, 1:]
+    t1, t2, t3, t4 = speed * n1, speed * n2, speed * n3, speed * n4
+    for e in range(n):
+        t = fma(speed, above[e], slip)
+        flows = (
+            fma(-t, x0[e], w0[e]),
+            fma(t1 - t, x1[e], w1[e]),
+            fma(t2 - t, x2[e], w2[e]),
+            fma(t3 - t, x3[e], w3[e]),
+            fma(t4 - t, x4[e], w4[e]),
+        )
+        s0[e], s1[e], s2[e], s3[e], s4[e] = differentiate(d, flows, left[e], right[e])
+    left, right = faces[PULL, :n], faces[PULL, 1:]
+    q1, q2, q3, q4 = rise * n1, rise * n2, rise * n3, rise * n4
+    for e in range(n):
+        t, q = fma(speed, above[e], slip), fma(rise, above[e], foot)
+        pulls = (
+            fma(q, x0[e], -t * w0[e]),
+            fma(q - q1, x1[e], (t1 - t) * w1[e]),
+            fma(q - q2, x2[e], (t2 - t) * w2[e]),
+            fma(q - q3, x3[e], (t3 - t) * w3[e]),
+            fma(q - q4, x4[e], (t4 - t) * w4[e]),
+        )
+        r0[e], r1[e], r2[e], r3[e], r4[e] = differentiate(d, pulls, left[e], right[e])
 
 
-@kernel
-def differentiate(f: np.ndarray, faces: np.ndarray, out: np.ndarray) -> None:
-    """out: d/dsigma of a flux with values ``f`` at the nodes and ``faces`` where elements meet, all columns alike."""
-    columns = f.shape[1]
-    f0, f1, f2, f3, f4 = f[0], f[1], f[2], f[3], f[4]
-    out0, out1, out2, out3, out4 = out[0], out[1], out[2], out[3], out[4]
-    left, right = faces[LEFT], faces[RIGHT]
-    per_sigma = float(columns)  # 2 n: the reference element is 2 wide
-    for k in range(columns):
-        ends, inner, middle = 0.5 * (f0[k] + f4[k]), 0.5 * (f1[k] + f3[k]), f2[k]
-        end_step, inner_step = 0.5 * (f0[k] - f4[k]), 0.5 * (f1[k] - f3[k])
-        odd0 = D0_EVEN[0] * ends + D0_EVEN[1] * inner + D0_EVEN[2] * middle
-        odd1 = D1_EVEN[0] * ends + D1_EVEN[1] * inner + D1_EVEN[2] * middle
-        even0 = D0_ODD[0] * end_step + D0_ODD[1] * inner_step
-        even1 = D1_ODD[0] * end_step + D1_ODD[1] * inner_step
-        out0[k] = per_sigma * (even0 + odd0 - LIFT * (left[k] - f0[k]))
-        out1[k] = per_sigma * (even1 + odd1)
-        out2[k] = per_sigma * (D2_ODD[0] * end_step + D2_ODD[1] * inner_step)
-        out3[k] = per_sigma * (even1 - odd1)
-        out4[k] = per_sigma * (even0 - odd0 + LIFT * (right[k] - f4[k]))
-
-
-@kernel
-def march(
-    x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, moving: np.ndarray, loss: float,
-    weights: np.ndarray,
-) -> None:  # fmt: skip
+@row_kernel
+def march(x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, loss: float, weights: np.ndarray) -> None:
     """Take ``loss`` times the velocity off the new rate; then x += weights . (new, old, older)."""
-    w0, w1, w2 = weights[0], weights[1], weights[2]
+    n, w0, w1, w2 = x.shape[1] // 2, weights[0], weights[1], weights[2]
     for j in range(5):
-        for k in range(x.shape[1]):
-            rate = new[j, k] - loss * moving[j, k] * x[j, k]
-            new[j, k] = rate
-            x[j, k] += w0 * rate + w1 * old[j, k] + w2 * older[j, k]
+        slope, rate0, rate1, rate2 = x[j, :n], new[j, :n], old[j, :n], older[j, :n]
+        for e in range(n):
+            slope[e] += fma(w0, rate0[e], fma(w1, rate1[e], w2 * rate2[e]))
+        velocity, rate0, rate1, rate2 = x[j, n:], new[j, n:], old[j, n:], older[j, n:]
+        for e in range(n):
+            rate = fma(-loss, velocity[e], rate0[e])
+            rate0[e] = rate
+            velocity[e] += fma(w0, rate, fma(w1, rate1[e], w2 * rate2[e]))
 
 
 @glue
@@ -283,8 +316,7 @@ def evaluate(
     x, rate = blocks[PRESENT], blocks[RATES + slot]
     meet(cable, x, faces, losses, moment)
     meet_ends(cable, x, faces, losses, ends, moment)
-    flux(cable, x, blocks[FLUX], moment)
-    differentiate(blocks[FLUX], faces, rate)
+    rates_inside(cable, x, faces, rate, moment)
 
 
 @kernel

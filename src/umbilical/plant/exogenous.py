@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from math import inf
 from typing import Any, NamedTuple
 
@@ -85,6 +85,11 @@ SINKING = ("heave", "sink_speed", "sink_acceleration")
 """What it gives besides where there is water or the sheave heaves."""
 STRETCHING = ("elastic_tension", "elastic_gradient", "elastic_tension_rate", "elastic_gradient_rate")
 """What follows besides where heave stretches the cable."""
+EFFECTS: dict[faults.Target, tuple[str, str]] = {
+    "thrust": ("effectiveness", "stuck_thrust"),
+    "voltage": ("drive_effectiveness", "stuck_voltage"),
+}
+"""Quantities of :class:`MotorExogenous` that faults give, by their target."""
 
 
 class Inputs(NamedTuple):
@@ -93,10 +98,12 @@ class Inputs(NamedTuple):
     Attributes:
         dt: length of the step, s, shape (steps,).
         refresh: whether something jumped at its start, so that forces must be evaluated anew.
-        world: records of cable and ROV at the step's start and end, shape (steps, 2).
-        motors: records of each motor at the step's start, end and middle, shape (steps, motors, 3).
+        world: records of cable and ROV at the step's start and end, shape (2, steps).
+        motors: records of each motor at the step's start, end and middle, shape (3, steps, motors).
         loads: signals of the loads along the cable, N/m, at the step's start and end, shape (steps, loads, 2).
         orbits: motion of the waves at instants of the stretch and their levels, as ``plant/orbital.py`` tabulates it.
+
+    Records at the start are those of the first step and of steps with ``refresh``: others begin as the last one ended.
     """
 
     dt: Array
@@ -199,54 +206,53 @@ class Outside:
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
         inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
+        entered = inputs.refresh.copy()
+        entered[:1] = True
         rows = _kept(_winch_at, steps)(self._scenario.winch, self._sea, self._stretching, environment.gravity, steps)
-        for name, row in zip(self._wanted, rows, strict=False):
-            inputs.world[name].T[:] = row[:2]
+        _put(inputs.world, self._wanted, rows, entered)
         if variation_of(environment):
-            current = [inputs.world["current_factor"].T, inputs.world["current_rate"].T]
-            _fill(current, lambda t, side: current_at(environment, t, side), steps, middle=False)
+            rows = _rows(lambda t, side: current_at(environment, t, side), steps)
+            _put(inputs.world, ("current_factor", "current_rate"), rows, entered)
         if environment.vessel_motion or environment.sea:
-            motion = [inputs.world["vessel_displacement"].T, inputs.world["vessel_velocity"].T]
-            _fill(motion, lambda t, side: vessel_at(environment, t, side), steps, middle=False)
-        _fill_signal(inputs.world["payload_force"].T, environment.payload_force, steps, middle=False)
+            rows = _rows(lambda t, side: vessel_at(environment, t, side), steps)
+            _put(inputs.world, ("vessel_displacement", "vessel_velocity"), rows, entered)
+        _put_signal(inputs.world, "payload_force", environment.payload_force, steps, entered)
         for k, load in enumerate(environment.cable_load):
-            _fill_signal(inputs.loads[:, k].T, load.signal, steps, middle=False)
-        self._sample_motors(steps, inputs.motors)
+            if load.signal:
+                inputs.loads[:, k].T[:] = _kept(_signal_at, steps)(load.signal, steps)[0, :2]
+        self._sample_motors(steps, inputs.motors, entered)
         return inputs if self._orbits is None else self._with_waves(steps, inputs)
 
     def _with_waves(self, steps: Steps, inputs: Inputs) -> Inputs:
         """The same with the waves' orbital motion, and where in its rows each step begins and ends."""
         first, rows = self._orbits.rows(float(steps.start[0]), float(steps.end[-1]))
-        place = inputs.world["wave_place"].T
+        place = inputs.world["wave_place"]
         place[START], place[END] = steps.start / orbital.STEP - first, steps.end / orbital.STEP - first
         return inputs._replace(orbits=rows)
 
-    def _sample_motors(self, steps: Steps, out: MotorExogenous) -> None:
+    def _sample_motors(self, steps: Steps, out: MotorExogenous, entered: Array) -> None:
         for k, motor in enumerate(self._scenario.motors):
-            _fill_signal(out["torque_disturbance"][:, k].T, motor.torque_disturbance, steps)
-            _fill_signal(out["voltage_disturbance"][:, k].T, motor.voltage_disturbance, steps)
-        for number in sorted({fault.motor for fault in self._scenario.faults}):
-            motor = out[:, number - 1]
-            self._sample_faults(number, "thrust", steps, [motor["effectiveness"].T, motor["stuck_thrust"].T])
-            self._sample_faults(number, "voltage", steps, [motor["drive_effectiveness"].T, motor["stuck_voltage"].T])
-
-    def _sample_faults(self, number: int, target: faults.Target, steps: Steps, out: Sequence[Array]) -> None:
+            _put_signal(out[:, :, k], "torque_disturbance", motor.torque_disturbance, steps, entered)
+            _put_signal(out[:, :, k], "voltage_disturbance", motor.voltage_disturbance, steps, entered)
         timeline = self._scenario.faults
-        _fill(out, lambda t, side: faults.effect(timeline, number, target, t, side), steps)
+        for target, names in EFFECTS.items():
+            for number in sorted({fault.motor for fault in timeline if fault.target == target}):
+                rows = _rows(partial(faults.effect, timeline, number, target), steps, middle=True)
+                _put(out[:, :, number - 1], names, rows, entered)
 
 
 def _empty(scenario: Scenario, steps: int) -> Inputs:
     """Nothing acts, and every motor is healthy."""
-    motors = MotorExogenous.many(steps, len(scenario.motors), 3)
+    motors = MotorExogenous.many(3, steps, len(scenario.motors))
     motors["effectiveness"] = motors["drive_effectiveness"] = 1.0
     loads = np.zeros((steps, len(scenario.environment.cable_load), 2))
-    world = Exogenous.many(steps, 2)
+    world = Exogenous.many(2, steps)
     world["current_factor"] = 1.0
     return Inputs(np.zeros(steps), np.zeros(steps, dtype=np.bool_), world, motors, loads, orbital.AT_REST)
 
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=32)
 def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, gravity: float, steps: Steps) -> Array:
     """Winch and what follows from it, rows as :data:`WINCH` and what else is wanted name them; ``sea`` if it heaves."""
 
@@ -256,16 +262,12 @@ def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, g
         more = (top.heave, top.sink_speed, top.sink_acceleration, *top[-len(STRETCHING) :])
         return own + more[: len(SINKING) + len(STRETCHING) * bool(elastic)]
 
-    rows = np.zeros((len(WINCH + SINKING) + len(STRETCHING) * bool(elastic), 3, steps.start.size))
-    _fill(rows, motion, steps, middle=False)
-    return rows
+    return _rows(motion, steps)
 
 
-@lru_cache(maxsize=64)
-def _signal_at(signal: signals.Signal, steps: Steps, middle: bool) -> Array:
-    rows = np.zeros((1, 3, steps.start.size))
-    _fill(rows, lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
-    return rows[0]
+@lru_cache(maxsize=128)
+def _signal_at(signal: signals.Signal, steps: Steps, middle: bool = False) -> Array:
+    return _rows(lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
 
 
 def _kept(function: Any, steps: Steps) -> Callable[..., Array]:
@@ -273,27 +275,35 @@ def _kept(function: Any, steps: Steps) -> Callable[..., Array]:
     return function if steps.shared else function.__wrapped__
 
 
-def _fill_signal(row: Array, signal: signals.Signal, steps: Steps, *, middle: bool = True) -> None:
-    """A signal into ``row``, shape (2 or 3, steps); the rows of absent signals stay zero."""
+def _put_signal(out: Any, name: str, signal: signals.Signal, steps: Steps, entered: Array) -> None:
+    """A signal into a field of records, shape (2 or 3, steps); those of absent signals stay zero."""
     if signal:
-        row[:] = _kept(_signal_at, steps)(signal, steps, middle)[: len(row)]
+        _put(out, (name,), _kept(_signal_at, steps)(signal, steps, len(out) > MIDDLE), entered)
 
 
-def _fill(
-    rows: Sequence[Array] | Array,
-    function: Callable[[Array, signals.Side], Sequence[Array]],
-    steps: Steps,
-    *,
-    middle: bool = True,
-) -> None:
-    """Functions of time into one of ``rows`` each, shape (2 or 3, steps); only motors look at the ``middle``."""
-    if middle:
-        for row, values in zip(rows, function(0.5 * (steps.start + steps.end), "right"), strict=True):
-            row[MIDDLE] = values
+def _put(out: Any, names: Sequence[str], rows: Array, entered: Array) -> None:
+    """Rows, shape (names, 3, steps), into fields of records, shape (2 or 3, steps), at the start where it is looked at.
+
+    Fields lie far apart in memory, so that writing them costs more than working them out.
+    """
+    for name, row in zip(names, rows, strict=False):
+        out[START][name][entered] = row[START][entered]
+        for column in range(END, len(out)):
+            out[column][name] = row[column]
+
+
+def _rows(function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = False) -> Array:
+    """Functions of time at start, end and middle of every step, shape (functions, 3, steps).
+
+    Only motors look at the ``middle``.
+    """
     if steps.jumps.size:
         starts, ends = function(steps.start, "right"), function(steps.end, "left")
     else:  # nothing jumps: each knot serves as the end of one step and the start of the next
         knots = function(np.append(steps.start, steps.end[-1]), "right")
         starts, ends = [k[:-1] for k in knots], [k[1:] for k in knots]
-    for row, start, end in zip(rows, starts, ends, strict=True):
-        row[START], row[END] = start, end
+    rows = np.zeros((len(starts), 3, steps.start.size))
+    rows[:, START], rows[:, END] = starts, ends
+    if middle:
+        rows[:, MIDDLE] = function(0.5 * (steps.start + steps.end), "right")
+    return rows

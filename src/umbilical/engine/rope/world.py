@@ -11,7 +11,7 @@ from umbilical.compile import glue, kernel
 from umbilical.control.contract import Decision, MotorDecision, Readings, TipReadings
 from umbilical.engine.sensing import Sensors, SensorState, add_errors
 from umbilical.frames import Frame, part, real, vector
-from umbilical.plant.exogenous import END, START, Exogenous
+from umbilical.plant.exogenous import END, MIDDLE, START, Exogenous
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor
 from umbilical.plant.rope.operators import LIFT, D
 from umbilical.plant.rope.operators import W as WEIGHTS
@@ -103,9 +103,9 @@ def give_thrust(plant: RopePlant, motors: MotorState, out: np.ndarray) -> None:
 @kernel
 def take_plane(state: RopePlantState, inputs: RopeInputs, i: int, column: int) -> None:
     """Winch and motors' outside world at start or end of step i."""
-    state.now[0].outside = inputs.plane.world[i, column]
+    state.now[0].outside = inputs.plane.world[column, i]
     for k in range(state.motors.size):
-        state.motors[k].outside = inputs.plane.motors[i, k, column]
+        state.motors[k].outside = inputs.plane.motors[column, i, k]
 
 
 @glue
@@ -136,13 +136,14 @@ def advance(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int,
     for k in range(3):
         now.thrust_before[k] = now.body_thrust[k]
     for k in range(decision.size):
-        advance_motor(plant.motors[k], state.motors[k], dt, decision[k].motor_voltage, inputs.plane.motors[i, k])
+        middle, end = inputs.plane.motors[MIDDLE, i, k], inputs.plane.motors[END, i, k]
+        advance_motor(plant.motors[k], state.motors[k], dt, decision[k].motor_voltage, middle, end)
     take_plane(state, inputs, i, END)
     if not plant.ideal:
         give_thrust(plant, state.motors, now.body_thrust)
     push(state, inputs, i)
     world = inputs.plane.world
-    stir(inputs.water, state.stage, inputs.plane.orbits, world[i, START].wave_place, world[i, END].wave_place)
+    stir(inputs.water, state.stage, inputs.plane.orbits, world[START, i].wave_place, world[END, i].wave_place)
     advance_rope(plant.rope, state.rope, state.stage, inputs.loads[i], inputs.water, dt, plant.booked)
 
 
