@@ -12,10 +12,11 @@ import sys
 from pathlib import Path
 
 from umbilical.cli.progress import bar
+from umbilical.faces.text import markdown
 from umbilical.plots import plot_convergence, save_figure
 from umbilical.verify import Verification, verify_all, water_response
 from umbilical.verify.cases import Check, Result, worst_ratio
-from umbilical.verify.page import numbers
+from umbilical.verify.summary import shown_numbers
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 TEXT = Path(__file__).with_suffix(".md")
@@ -27,7 +28,7 @@ def text(found: Verification) -> str:
     """The page: what stands in make_validation.md, with headline and tables in their places."""
     note = "<!-- Written by tools/make_validation.py; edit its text in tools/make_validation.md. -->"
     body = TEXT.read_text(encoding="utf-8").replace("{headline}", found.headline).replace("{picture}", PICTURE)
-    body = body.replace("{drag}", water_response.table())
+    body = body.replace("{drag}", water_response.answers_table())
     body = body.replace("{beside}", beside(found))
     title, _, rest = body.replace("{tables}", tables(found)).partition("\n")
     return f"{title}\n\n{note}\n{rest}"
@@ -37,20 +38,16 @@ def tables(found: Verification) -> str:
     """One table for each family."""
     parts = []
     for family, results in found.families.items():
-        rows = [HEAD, ("---",) * len(HEAD), *map(row, results)]
-        lines = ("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |" for cells in rows)
-        parts.append(f"### {family}\n\n" + "\n".join(lines))
+        parts.append(f"### {family}\n\n" + markdown([HEAD, *map(row, results)]))
     return "\n\n".join(parts)
 
 
 def beside(found: Verification) -> str:
     """All numbers of the presets of the string on the rope."""
     cases = [result for result in found.families["Rope"] if result.case.name.startswith("rope beside")]
-    lines = ["| preset | tip | midpoint |", "| --- | --- | --- |"]
-    for result in cases:
-        for tip, middle in zip(result.checks[::2], result.checks[1::2], strict=True):
-            lines.append(f"| {tip.quantity.partition(',')[0]} | {tip.error:.1e} | {middle.error:.1e} |")
-    return "\n".join(lines)
+    pairs = [pair for result in cases for pair in zip(result.checks[::2], result.checks[1::2], strict=True)]
+    rows = [(tip.quantity.partition(",")[0], f"{tip.error:.1e}", f"{middle.error:.1e}") for tip, middle in pairs]
+    return markdown([("preset", "tip", "midpoint"), *rows])
 
 
 def row(result: Result) -> tuple[str, ...]:
@@ -60,7 +57,7 @@ def row(result: Result) -> tuple[str, ...]:
         return result.case.name, "0", against, f"**skipped**: {result.skipped}", "", "", "", ""
     check = max(result.checks, key=nearness)
     verdict = "" if result.holds else " **FAILS**"
-    ours, expected, error, tolerance = numbers(check)
+    ours, expected, error, tolerance = shown_numbers(check)
     name, count = result.case.name, str(len(result.checks))
     return name, count, against, check.quantity, ours, expected, error + verdict, f"{tolerance}: {check.why}"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import shutil
 import subprocess
 import sys
@@ -52,3 +53,21 @@ def test_an_import_that_points_upward_or_outside_is_noticed(tmp_path, module, li
     done = lint_imports(tmp_path)
     assert done.returncode != 0
     assert "BROKEN" in done.stdout
+
+
+def imported_of_ours(source: str) -> set[str]:
+    """Modules of this package that a file imports, but for the references of the verification."""
+    names = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            names |= {name.name for name in node.names}
+        if isinstance(node, ast.ImportFrom):
+            names.add("." * node.level + (node.module or ""))
+    return {n for n in names if n.startswith((".", "umbilical")) and not n.startswith("umbilical.verify.references")}
+
+
+def test_what_judges_the_engine_imports_nothing_of_this_package() -> None:
+    files = [*(ROOT / "src" / "umbilical" / "verify" / "references").glob("*.py")]
+    assert len(files) > 10
+    assert {file.name: found for file in files if (found := imported_of_ours(file.read_text(encoding="utf-8")))} == {}
+    assert imported_of_ours("def f():\n    from umbilical.engine import simulate") == {"umbilical.engine"}

@@ -18,13 +18,13 @@ from umbilical.control.observers.disturbance import (
     start_disturbance,
 )
 from umbilical.scenario.control import DisturbanceObserver
-from umbilical.verify.observers import PERIOD, derivative
+from umbilical.verify.observers import PERIOD, estimated_derivative
 
 pytestmark = pytest.mark.nojit
 
 
 def test_high_gain_starts_at_rest_on_the_first_sample() -> None:
-    assert np.abs(derivative(np.full(50, 7.0))).max() < 1e-11
+    assert np.abs(estimated_derivative(np.full(50, 7.0))).max() < 1e-11
 
 
 def test_held_input_form_against_an_integration() -> None:

@@ -23,7 +23,7 @@ from umbilical.verify.cases import (
     small,
     worst_ratio,
 )
-from umbilical.verify.page import data, page, rounded
+from umbilical.verify.summary import data, markdown_page, one_digit
 from umbilical.verify.verification import Verification
 
 NAN = float("nan")
@@ -91,10 +91,10 @@ def _verification(*checks: Check, skipped: str = "") -> Verification:
 
 
 def test_the_page_shows_what_fails_and_what_was_skipped() -> None:
-    failing = page(_verification(small("speed, m/s", 0.25, 0.1, "because")), "plot.svg")
+    failing = markdown_page(_verification(small("speed, m/s", 0.25, 0.1, "because")), "plot.svg")
     assert "1 check in 1 case: 0 hold, 1 FAIL" in failing
     assert "| speed, m/s | 0.25 | 0 | 2e-01 | 0.1 | because | **FAILS** |" in failing
-    assert "Skipped: needs x" in page(_verification(skipped="needs x"), "plot.svg")
+    assert "Skipped: needs x" in markdown_page(_verification(skipped="needs x"), "plot.svg")
     assert "![errors over grids](plot.svg)" in failing
 
 
@@ -110,4 +110,4 @@ def test_curves_carry_the_name_of_their_case() -> None:
 
 
 def test_errors_are_rounded_to_one_digit() -> None:
-    assert [rounded(e) for e in (1.94e-7, 3e-14, 0.0, -0.2, NAN)] == ["2e-07", "round-off", "none", "none", "nan"]
+    assert [one_digit(e) for e in (1.94e-7, 3e-14, 0.0, -0.2, NAN)] == ["2e-07", "round-off", "none", "none", "nan"]

@@ -52,10 +52,10 @@ def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, s
         return {}
     from umbilical.files import write
     from umbilical.plots import plot_convergence, save_figure
-    from umbilical.verify.page import data, page
+    from umbilical.verify.summary import data, markdown_page
 
     report, numbers, picture = targets
-    write(report, page(found, picture.name).encode(), force=force)
+    write(report, markdown_page(found, picture.name).encode(), force=force)
     write(numbers, data(found).encode(), force=force)
     save_figure(plot_convergence(found.curves), picture, force=force)
     return {"table": str(report), "data": str(numbers), "plots": str(picture)}

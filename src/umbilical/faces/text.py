@@ -54,6 +54,18 @@ def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
     return "\n".join(lines)
 
 
+def markdown(rows: Sequence[Sequence[str]]) -> str:
+    """Rows of cells as a table in Markdown, the first of them its head.
+
+    >>> print(markdown([("a",), ("b|c",)]))
+    | a |
+    | --- |
+    | b\\|c |
+    """
+    lines = [rows[0], ["---"] * len(rows[0]), *rows[1:]]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in lines)
+
+
 def paragraph(text: str) -> str:
     """A text in lines that the terminal (or ``COLUMNS``) has room for; as it is where there is neither."""
     return "\n".join(wrap(text, max(room, _NARROWEST))) if (room := width()) else text

@@ -17,7 +17,7 @@ TOLERANCE = 1e-9
 WHY = "each step is exact for what is held: round-off; the other sign misses by 1"
 
 
-def followed() -> Iterator[Check]:
+def _followed() -> Iterator[Check]:
     """kappa of a run, from the commands and the boundary errors of that run, by the law written out again.
 
     ``kappa' = -Gamma (theta u_a + s_k kappa)``, theta = [alpha_c, 1, 1], both held over the period that ends.
@@ -38,4 +38,4 @@ def followed() -> Iterator[Check]:
         yield history_close(f"kappa_{j} less its start, over {UNTIL:g} s", found, moved[:, j], TOLERANCE, WHY)
 
 
-CASES = (Case("adaptive law in the loop", "(27), solved for held theta u_a", "eq. (27)", followed),)
+CASES = (Case("adaptive law in the loop", "(27), solved for held theta u_a", "eq. (27)", _followed),)

@@ -5,8 +5,9 @@ A check holds when its error is not above its tolerance; NaN is above everything
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from importlib.util import find_spec
 from time import perf_counter
 from typing import Any
@@ -15,6 +16,7 @@ import numpy as np
 
 from umbilical.analysis.convergence import Curve, orders
 from umbilical.errors import UmbilicalError
+from umbilical.verify.references import CaseError
 
 UNFINISHED = "the whole case"
 """The quantity of a check that stands for those which a case did not come to."""
@@ -49,9 +51,10 @@ class Check:
         """Whether the error is within the tolerance."""
         return bool(self.error <= self.tolerance)
 
-
-class CaseError(Exception):
-    """A case could not be carried through: a run that did not complete, a reference that failed."""
+    @property
+    def verdict(self) -> str:
+        """Likewise, in a word."""
+        return "holds" if self.holds else "FAILS"
 
 
 @dataclass(frozen=True)
@@ -82,7 +85,7 @@ class Case:
         checks: list[Check] = []
         try:
             checks.extend(self.find())
-        except Exception as error:  # whatever it is: this case fails, and the others still have their say
+        except Exception as error:  # any error fails this case only
             nan = float("nan")
             what = error if isinstance(error, CaseError | UmbilicalError) else repr(error)
             checks.append(Check(UNFINISHED, nan, nan, nan, 0.0, f"could not be carried through: {what}"))
@@ -102,6 +105,17 @@ class Result:
     def holds(self) -> bool:
         """Whether no check fails. A skipped case has none."""
         return all(check.holds for check in self.checks)
+
+
+def each(
+    name: str, reference: str, source: str, find: Callable[[Any], Iterable[Check]],
+    settings: Mapping[str, Any] | Sequence[Any], **options: Any,
+) -> tuple[Case, ...]:  # fmt: skip
+    """A case for each of some settings, which are named in a mapping, or values that ``name`` shows; the rest alike."""
+    named = settings if isinstance(settings, Mapping) else {value: value for value in settings}
+    return tuple(
+        Case(name.format(shown), reference, source, partial(find, value), **options) for shown, value in named.items()
+    )
 
 
 def close(quantity: str, ours: float, expected: float, tolerance: float, why: str) -> Check:
@@ -130,6 +144,20 @@ def history_close(quantity: str, ours: Any, expected: Any, tolerance: float, why
     return Check(
         quantity, _shown(found[worst]), _shown(exact[worst]), float(off[worst] / np.abs(exact).max()), tolerance, why
     )
+
+
+def channels_close(
+    ours: Any, theirs: Any, names: Mapping[str, str], *limit: Any, factor: float = 1.0
+) -> Iterator[Check]:
+    """Channels of two runs, by name with their units; ``factor`` is of the expected ones."""
+    for name, unit in names.items():
+        shown = f"{name.replace('_', ' ')}, {unit}"
+        yield history_close(shown, ours[name].values, factor * theirs[name].values, *limit)
+
+
+def at_least(quantity: str, value: float, least: float, why: str) -> Check:
+    """A number that must not be small; the error is what it lacks, as a ratio."""
+    return Check(quantity, value, least, least / value, 1.0, why)
 
 
 def order_reached(curve: Curve, why: str) -> Check:

@@ -9,14 +9,10 @@ import numpy as np
 from umbilical.plant.layout import positions
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
+from umbilical.verify.cases import Case, Check, close, each, each_close, history_close, small
 from umbilical.verify.engine import STEADY_TENSION, UNDAMPED, open_loop
-from umbilical.verify.references.hanging_string import (
-    HangingString,
-    frequencies,
-    mode_shape,
-    steady_tension_frequencies,
-)
+from umbilical.verify.references import hanging_string as reference
+from umbilical.verify.references.hanging_string import HangingString
 
 TOLERANCE = 1e-4
 WHY = "asked for; half the ROV's inertia moves them by 1e-2"
@@ -33,29 +29,27 @@ def hanging(string: HangingString, **overrides: object) -> Scenario:
     ).replace(UNDAMPED)  # fmt: skip
 
 
-def compared(string: HangingString, **overrides: object) -> Iterator[Check]:
+def _compared(string: HangingString, **overrides: object) -> Iterator[Check]:
     """The first six frequencies and shapes, and that nothing decays or grows by itself."""
     scenario = hanging(string, **overrides)
     found, shapes = engine.modes(scenario, 6)
-    exact = frequencies(string, 6)
+    exact = reference.frequencies(string, 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
     above = string.length * (1.0 - positions(scenario.grid.elements))
-    wanted = np.array([mode_shape(string, w, above) for w in exact])
+    wanted = np.array([reference.mode_shape(string, w, above) for w in exact])
     yield history_close("their shapes, 1 at the ROV", shapes, wanted, TOLERANCE, "four digits, as for the frequencies")
-    yield small(
-        "largest |decay|/w of the six", float(np.abs(np.real(found) / np.imag(found)).max()), 1e-6,
-        "what the scheme takes must not show in a run",
-    )  # fmt: skip
+    decay = float(np.abs(np.real(found) / np.imag(found)).max())
+    yield small("largest |decay|/w of the six", decay, 1e-6, "what the scheme takes must not show in a run")
 
 
-def steady_tension() -> Iterator[Check]:
+def _steady_tension() -> Iterator[Check]:
     """The limit rho -> 0 in the tension only."""
     found = engine.poles(hanging(HangingString()).replace(STEADY_TENSION), 6)
-    exact = steady_tension_frequencies(HangingString(), 6)
+    exact = reference.steady_tension_frequencies(HangingString(), 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
 
 
-def pendulum() -> Iterator[Check]:
+def _pendulum() -> Iterator[Check]:
     """A cable that weighs nothing beside its ROV: the first mode is a pendulum, the others are those of a fixed end."""
     string = HangingString(line_density=2.0, mass=2e6)
     found = np.imag(engine.poles(hanging(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
@@ -67,30 +61,13 @@ def pendulum() -> Iterator[Check]:
 
 
 CASES = (
-    *(
-        Case(
-            f"hanging cable, l = {length:g} m",
-            BESSEL,
-            SOURCE,
-            lambda length=length: compared(HangingString(length=length)),
-        )
-        for length in (500.0, 400.0, 300.0)
-    ),
-    *(
-        Case(f"hanging cable, m = {mass:g} kg", BESSEL, SOURCE, lambda mass=mass: compared(HangingString(mass=mass)))
-        for mass in (50.0, 5000.0)
-    ),
-    Case(
-        "hanging cable, in water",
-        "the same with T = W + q s",
-        SOURCE,
-        lambda: compared(HangingString(weight_left=0.3, line_weight_left=0.6)),
-    ),
-    Case(
-        "hanging cable, constant tension",
-        "cot b = (m/(rho l)) b, b = w l/c",
-        "textbook: string with a mass",
-        steady_tension,
-    ),
-    Case("hanging cable, rho l/m -> 0", "sqrt(g/l) and n pi c/l", "textbook: pendulum, fixed string", pendulum),
-)
+    *each("hanging cable, l = {:g} m", BESSEL, SOURCE, lambda length: _compared(HangingString(length=length)),
+          (500.0, 400.0, 300.0)),
+    *each("hanging cable, m = {:g} kg", BESSEL, SOURCE, lambda mass: _compared(HangingString(mass=mass)),
+          (50.0, 5000.0)),
+    Case("hanging cable, in water", "the same with T = W + q s", SOURCE,
+         lambda: _compared(HangingString(weight_left=0.3, line_weight_left=0.6))),
+    Case("hanging cable, constant tension", "cot b = (m/(rho l)) b, b = w l/c", "textbook: string with a mass",
+         _steady_tension),
+    Case("hanging cable, rho l/m -> 0", "sqrt(g/l) and n pi c/l", "textbook: pendulum, fixed string", _pendulum),
+)  # fmt: skip

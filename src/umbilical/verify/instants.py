@@ -34,12 +34,11 @@ FAULTS = {
 }
 
 
-def pushed(start: float, width: float) -> Run:
+def _pushed(start: float, width: float) -> Run:
     """A pulse of 1 N s, however short."""
     pulse = [{"kind": "pulse", "value": 1.0 / width, "start": start, "end": start + width}]
-    return engine.completed(
-        open_loop(duration=0.08, output__interval=STEP, environment__payload_force=pulse).replace(STEADY_TENSION)
-    )
+    scenario = open_loop(duration=0.08, output__interval=STEP, environment__payload_force=pulse)
+    return engine.completed(scenario.replace(STEADY_TENSION))
 
 
 def stuck(start: float, **more: Any) -> Run:
@@ -58,11 +57,11 @@ def velocity_after(force: float, since: np.ndarray) -> np.ndarray:
     return force / IMPEDANCE * -np.expm1(-IMPEDANCE * since / MASS)
 
 
-def pulses() -> Iterator[Check]:
+def _pulses() -> Iterator[Check]:
     """Each pulse leaves its momentum, and nothing moves before it."""
     found, early = [], 0.0
     for start, width in PULSES:
-        velocity = pushed(start, width)["tip_velocity"].values
+        velocity = _pushed(start, width)["tip_velocity"].values
         found.append(velocity[int(np.ceil((start + width) / STEP - 1e-9)) + LOOK])
         early = max(early, float(np.abs(velocity[: int(np.floor(start / STEP + 1e-9)) + 1]).max()))
     after = np.array([(np.ceil((s + w) / STEP - 1e-9) + LOOK) * STEP - s - w / 2.0 for s, w in PULSES])
@@ -71,7 +70,7 @@ def pulses() -> Iterator[Check]:
     yield small("velocity before it, m/s", early, 0.0, "nothing has happened yet")
 
 
-def faults() -> Iterator[Check]:
+def _faults() -> Iterator[Check]:
     """80 N from the fault on: exactly on, before and after a step."""
     runs = {name: stuck(start) for name, start in FAULTS.items()}
     found = [run["tip_velocity"].values[50 + LOOK] for run in runs.values()]
@@ -79,27 +78,22 @@ def faults() -> Iterator[Check]:
     yield each_close("velocity 5 ms later, m/s, the worst of five", found, velocity_after(80.0, since), TOLERANCE, WHY)
     first = {name: int(np.argmax(run["thrust"].values != 0.0)) for name, run in runs.items()}
     late = sum(first[name] != (51 if name == "just after" else 50) for name in FAULTS)
-    yield small(
-        "samples of the thrust that come late or early",
-        float(late),
-        0.0,
-        "which sample is first is no matter of digits",
-    )
+    why = "which sample is first is no matter of digits"
+    yield small("samples of the thrust that come late or early", float(late), 0.0, why)
 
 
-def recovery() -> Iterator[Check]:
+def _recovery() -> Iterator[Check]:
     """80 N from 20 ms to 40.5 ms, in the middle of a step."""
     velocity = stuck(0.02, end=0.0405)["tip_velocity"].values[45]
     exact = velocity_after(80.0, np.array(0.045 - 0.02)) - velocity_after(80.0, np.array(0.045 - 0.0405))
-    yield each_close(
-        "velocity at 45 ms, m/s", [velocity], [exact], 2e-3, "as before; its end one step late misses by 5e-2"
-    )
+    why = "as before; its end one step late misses by 5e-2"
+    yield each_close("velocity at 45 ms, m/s", [velocity], [exact], 2e-3, why)
 
 
 DASHPOT = "P/Z (1 - exp(-Z t/m))"
 SOURCE = "mass on a semi-infinite string"
 CASES = (
-    Case("pulses shorter than a step", DASHPOT, SOURCE, pulses),
-    Case("a fault on, before and after a step", DASHPOT, SOURCE, faults),
-    Case("a fault that ends inside a step", DASHPOT, SOURCE, recovery),
+    Case("pulses shorter than a step", DASHPOT, SOURCE, _pulses),
+    Case("a fault on, before and after a step", DASHPOT, SOURCE, _faults),
+    Case("a fault that ends inside a step", DASHPOT, SOURCE, _recovery),
 )

@@ -10,7 +10,7 @@ import numpy as np
 from umbilical.library import load
 from umbilical.run import Run
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, close, history_close
+from umbilical.verify.cases import Case, Check, channels_close, close, each, history_close
 from umbilical.verify.engine import constant, dotted, open_loop, sine
 
 ROUND_OFF = 1e-9
@@ -34,17 +34,14 @@ def response(lengths: tuple[float, float], start: float, inputs: list[dict[str, 
     environment = {f"environment.{name}": value for part in inputs for name, value in part.items()}
     scenario = open_loop(
         winch={"law": "quintic", "start_length": lengths[0], "end_length": lengths[1], "duration": 5.0},
-        initial={"shape": "sine", "amplitude": start, "half_waves": 1.5},
-        duration=5.0,
-        grid__elements=8,
-        cable__damping=0.05,
-        payload__damping=5.0,
+        initial={"shape": "sine", "amplitude": start, "half_waves": 1.5}, duration=5.0, grid__elements=8,
+        cable__damping=0.05, payload__damping=5.0,
         environment__vessel_ramp=2.0,  # in every part: forces are evaluated anew where it ends
-    )
+    )  # fmt: skip
     return engine.completed(scenario.replace(environment))
 
 
-def superposed(lengths: tuple[float, float]) -> Iterator[Check]:
+def _superposed(lengths: tuple[float, float]) -> Iterator[Check]:
     """The response to a sum is the sum of the responses."""
     parts = [response(lengths, 0.7, []), *(response(lengths, 0.0, [part]) for part in INPUTS)]
     whole = response(lengths, 0.7, INPUTS)
@@ -70,23 +67,21 @@ def mirrored(sign: float, preset: str) -> Run:
     return engine.completed(scenario.replace(sideways))
 
 
-def mirror_image() -> Iterator[Check]:
+def _mirror_image() -> Iterator[Check]:
     """y -> -y, motors, adaptation and a fault included."""
     right, left = mirrored(1.0, "paper-adaptive"), mirrored(-1.0, "paper-adaptive")
-    for name, unit in (("displacement", "m"), ("motor_voltage", "V")):
-        yield history_close(f"{name.replace('_', ' ')}, {unit}", left[name].values, -right[name].values, ROUND_OFF, WHY)
+    yield from channels_close(left, right, {"displacement": "m", "motor_voltage": "V"}, ROUND_OFF, WHY, factor=-1.0)
 
 
 def pulsed(begin: float, **overrides: Any) -> np.ndarray:
     """y(l,t), m, from half a second's push of 100 N on."""
     pulse = [{"kind": "pulse", "value": 100.0, "start": begin, "end": begin + 0.5}]
-    run = engine.completed(
-        open_loop(duration=6.0, grid__elements=8, output__interval=0.01, environment__payload_force=pulse, **overrides)
-    )
+    common = {"duration": 6.0, "grid__elements": 8, "output__interval": 0.01, "environment__payload_force": pulse}
+    run = engine.completed(open_loop(**common | overrides))
     return run["tip_displacement"].values[run["time"].values >= begin - 1e-9]
 
 
-def shifted() -> Iterator[Check]:
+def _shifted() -> Iterator[Check]:
     """A later push gives the same response later."""
     early, late = pulsed(1.0), pulsed(3.0)
     yield history_close("y(l,t), m", early[: late.size], late, ROUND_OFF, WHY)
@@ -95,42 +90,33 @@ def shifted() -> Iterator[Check]:
 def hung(length: float, time: float, force: float) -> Run:
     """The same cable in units of ``length`` m, ``time`` s and ``force`` N; g = 10 m/s2 in each."""
     mass = force * time**2 / length
-    return engine.completed(
-        open_loop(
-            environment__gravity=10.0 * length / time**2,
-            cable={"line_density": 2.0 * mass / length, "damping": 0.1 * mass / length / time},
-            payload={"mass": 100.0 * mass, "damping": 5.0 * mass / time},
-            winch={
-                "law": "quintic",
-                "start_length": 80.0 * length,
-                "end_length": 90.0 * length,
-                "duration": 4.0 * time,
-            },
-            initial={"shape": "sine", "amplitude": 0.5 * length},
-            environment__payload_force=[constant(50.0 * force), sine(20.0 * force, 2.0 / time)],
-            environment__cable_load=[{"profile": {"shape": "uniform"}, "signal": [sine(force / length, 1.0 / time)]}],
-            duration=4.0 * time,
-            control__period=1e-3 * time,
-            grid={"elements": 8, "step": 1e-3 * time},
-            output__interval=0.1 * time,
-        )
-    )
+    return engine.completed(open_loop(
+        environment__gravity=10.0 * length / time**2,
+        cable={"line_density": 2.0 * mass / length, "damping": 0.1 * mass / length / time},
+        payload={"mass": 100.0 * mass, "damping": 5.0 * mass / time},
+        winch={"law": "quintic", "start_length": 80.0 * length, "end_length": 90.0 * length, "duration": 4.0 * time},
+        initial={"shape": "sine", "amplitude": 0.5 * length},
+        environment__payload_force=[constant(50.0 * force), sine(20.0 * force, 2.0 / time)],
+        environment__cable_load=[{"profile": {"shape": "uniform"}, "signal": [sine(force / length, 1.0 / time)]}],
+        duration=4.0 * time, control__period=1e-3 * time, grid={"elements": 8, "step": 1e-3 * time},
+        output__interval=0.1 * time,
+    ))  # fmt: skip
 
 
-def in_other_units() -> Iterator[Check]:
+def _in_other_units() -> Iterator[Check]:
     """In units of 3 m, 1.7 s and 0.3 N the same numbers."""
     one, other = hung(1.0, 1.0, 1.0), hung(3.0, 1.7, 0.3)
     for name, unit in (("displacement", 3.0), ("velocity", 3.0 / 1.7), ("energy", 0.9)):
         yield history_close(name, other[name].values / unit, one[name].values, ROUND_OFF, WHY)
 
 
-def all_dead() -> Iterator[Check]:
+def _all_dead() -> Iterator[Check]:
     """Whatever the controller tries."""
     dead, free = engine.completed(small("paper", faults=DEAD)), engine.completed(small("paper-none"))
-    yield history_close("displacement, m", dead["displacement"].values, free["displacement"].values, 1e-15, "no thrust")
+    yield from channels_close(dead, free, {"displacement": "m"}, 1e-15, "no thrust")
 
 
-def weightless() -> Iterator[Check]:
+def _weightless() -> Iterator[Check]:
     """T = m g + w (l - x): the distance to the cable of constant tension falls with the weight w in water."""
 
     def along(wet: float) -> np.ndarray:
@@ -143,32 +129,23 @@ def weightless() -> Iterator[Check]:
     yield close("distance at 1e-2 kg/m over that at 1e-4 kg/m", far / near, 100.0, 0.05, "the square of 1e-2 l/m")
 
 
-def refined() -> Iterator[Check]:
+def _refined() -> Iterator[Check]:
     """The paper's scenario at the default grid, and with twice the elements and half the step."""
     default = engine.completed(load("paper"))
     fine = engine.completed(load("paper", {"grid.elements": 128, "grid.step": 5e-4}))
     why = "the load starts with a jump, and the front of the wave it sends wants the finer grid"
-    for name, unit in (("tip_displacement", "m"), ("thrust", "N")):
-        yield history_close(f"{name.replace('_', ' ')}, {unit}", default[name].values, fine[name].values, 5e-3, why)
+    yield from channels_close(default, fine, {"tip_displacement": "m", "thrust": "N"}, 5e-3, why)
     for name in ("mid_peak", "mid_rms"):
         yield close(f"{name.replace('_', ' ')}, m", default.metrics[name], fine.metrics[name], 5e-3, why)
 
 
 TWO_RUNS = "another run of ours"
 CASES = (
-    *(
-        Case(
-            f"superposition, {name}",
-            "sum of four responses",
-            "the open loop is linear",
-            lambda ways=ways: superposed(ways),
-        )
-        for name, ways in WAYS.items()
-    ),
-    Case("mirror image", TWO_RUNS, "(6)-(64) are odd in y", mirror_image),
-    Case("shift in time", TWO_RUNS, "(6)-(8) with l fixed", shifted),
-    Case("other units", TWO_RUNS, "dimensional analysis", in_other_units),
-    Case("all motors dead", "a run without control", "(16) with rho_i = u_k = 0", all_dead),
-    Case("w -> 0 in T", "a run at constant tension", "T = m g + w (l - x)", weightless),
-    Case("refinement", "a run on a grid twice as fine", "convergence", refined),
+    *each("superposition, {}", "sum of four responses", "the open loop is linear", _superposed, WAYS),
+    Case("mirror image", TWO_RUNS, "(6)-(64) are odd in y", _mirror_image),
+    Case("shift in time", TWO_RUNS, "(6)-(8) with l fixed", _shifted),
+    Case("other units", TWO_RUNS, "dimensional analysis", _in_other_units),
+    Case("all motors dead", "a run without control", "(16) with rho_i = u_k = 0", _all_dead),
+    Case("w -> 0 in T", "a run at constant tension", "T = m g + w (l - x)", _weightless),
+    Case("refinement", "a run on a grid twice as fine", "convergence", _refined),
 )

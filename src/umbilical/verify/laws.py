@@ -23,7 +23,7 @@ ROUND_OFF = 1e-12
 WHY = "round-off; a wrong sign of any term misses by 1e-6 at least"
 
 
-def inner() -> Iterator[Check]:
+def _inner() -> Iterator[Check]:
     """V_b for errors of a tenth of a width to a hundred widths, with nothing observed."""
     scenario, random = load("paper"), np.random.default_rng(2022)
     constants, loop = motor_constants(scenario.motors[0]), scenario.control.motor_loop
@@ -42,7 +42,7 @@ def inner() -> Iterator[Check]:
     yield history_close("V_b, rad/s3, at 200 states", found, wanted, ROUND_OFF, WHY)
 
 
-def outer() -> Iterator[Check]:
+def _outer() -> Iterator[Check]:
     """The commanded thrust, from what the observers hold."""
     random = np.random.default_rng(22)
     found, wanted = [], []
@@ -60,6 +60,6 @@ def outer() -> Iterator[Check]:
 
 SOURCE = "eqs. (22), (52)-(60), written a second time in numpy"
 CASES = (
-    Case("law of a motor at random states", "(52), (59), (60)", SOURCE, inner),
-    Case("law at the ROV at random states", "(22)", SOURCE, outer),
+    Case("law of a motor at random states", "(52), (59), (60)", SOURCE, _inner),
+    Case("law at the ROV at random states", "(22)", SOURCE, _outer),
 )

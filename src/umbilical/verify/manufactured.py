@@ -8,7 +8,7 @@ would, as tables, dense enough to count below the finest grid.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -17,7 +17,7 @@ import numpy as np
 from umbilical.analysis.convergence import Curve
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, history_close, order_reached, small
+from umbilical.verify.cases import Case, Check, each, history_close, order_reached, small
 from umbilical.verify.engine import constant, open_loop, sine
 from umbilical.verify.orders import DISPLACEMENT_ORDER, TIME_ORDER, TIP_ORDER, VELOCITY_ORDER
 from umbilical.verify.references import manufactured as exact
@@ -55,7 +55,7 @@ TERMS_OFF = {
 TERM_TOLERANCE = 5e-5
 
 
-class Answer(NamedTuple):
+class _Answer(NamedTuple):
     """y and Dy/Dt at the nodes at the end; y and D(y_x)/Dt at the ROV over time."""
 
     sigma: np.ndarray
@@ -71,7 +71,7 @@ def _positions(elements: int) -> np.ndarray:
     return np.unique(np.concatenate([nodes, np.linspace(0.0, 1.0, ALONG)]))
 
 
-def separated(field: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+def _separated(field: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Profiles and histories whose products add up to a field, shape (instants, places), to round-off."""
     histories, sizes, profiles = np.linalg.svd(field, full_matrices=False)
     for k in np.flatnonzero(sizes > 1e-14 * sizes[0]):
@@ -87,34 +87,25 @@ def _driven(problem: Problem, elements: int) -> Scenario:
         return [{"kind": "table", "times": t.tolist(), "values": values.tolist()}]
 
     loads = [
-        {
-            "profile": {"shape": "table", "positions": sigma.tolist(), "values": profile.tolist()},
-            "signal": history(values),
-        }
-        for profile, values in separated(exact.load(problem, sigma, t[:, None]))
-    ]
+        {"profile": {"shape": "table", "positions": sigma.tolist(), "values": profile.tolist()},
+         "signal": history(values)}
+        for profile, values in _separated(exact.load(problem, sigma, t[:, None]))
+    ]  # fmt: skip
+    wet_line_density, sea = problem.cable_weight / problem.gravity, problem.sea
     return open_loop(
-        duration=UNTIL,
-        output__interval=0.1,
-        grid__elements=elements,
-        cable={
-            "line_density": problem.line_density,
-            "wet_line_density": problem.cable_weight / problem.gravity,
-            "damping": problem.damping,
-        },
+        duration=UNTIL, output__interval=0.1, grid__elements=elements, environment__gravity=problem.gravity,
+        cable={"line_density": problem.line_density, "wet_line_density": wet_line_density, "damping": problem.damping},
         payload={"mass": problem.mass, "damping": problem.tip_damping, "wet_weight": problem.weight},
-        environment__gravity=problem.gravity,
-        environment__vessel_heave=_heave(problem.sea),
-        environment__cable_load=loads,
-        environment__payload_force=history(exact.force(problem, t)),
-        environment__vessel_motion=[constant(problem.vessel), sine(-problem.vessel, 1.3, np.pi / 2.0)],
-        winch=_winch(problem),
+        environment__vessel_heave=_from_rest(sea.heave, exact.HEAVING) if sea.heave else None,
+        environment__cable_load=loads, environment__payload_force=history(exact.force(problem, t)),
+        environment__vessel_motion=_from_rest(problem.vessel, 1.3), winch=_winch(problem),
         initial={"shape": "sine", "amplitude": problem.start, "half_waves": exact.WAVENUMBER / np.pi},
-    ).replace(_water(problem.sea))
+    ).replace(_water(sea))  # fmt: skip
 
 
-def _heave(sea: Sea) -> list[dict[str, Any]] | None:
-    return [constant(sea.heave), sine(-sea.heave, exact.HEAVING, np.pi / 2.0)] if sea.heave else None
+def _from_rest(size: float, frequency: float) -> list[dict[str, Any]]:
+    """The terms of ``size (1 - cos w t)``."""
+    return [constant(size), sine(-size, frequency, np.pi / 2.0)]
 
 
 def _water(sea: Sea) -> dict[str, Any]:
@@ -123,30 +114,21 @@ def _water(sea: Sea) -> dict[str, Any]:
         return {}
     area, dynamic = sea.displaced / DENSITY, 0.5 * DENSITY
     diameter = float(np.sqrt(4.0 * area / np.pi))
+    depths = [-10.0, DEEPEST]
+    current = {"depths": depths, "speeds": [sea.surface + sea.shear * depth for depth in depths],
+               "variation": [sine(sea.surge, exact.SURGING)]}  # fmt: skip
     return {
-        "environment.water": {
-            "density": DENSITY,
-            "current": {
-                "depths": [-10.0, DEEPEST],
-                "speeds": [sea.surface + sea.shear * depth for depth in (-10.0, DEEPEST)],
-                "variation": [sine(sea.surge, exact.SURGING)],
-            },
-        },
+        "environment.water": {"density": DENSITY, "current": current},
         "cable.water": {
-            "diameter": diameter,
-            "normal_drag": sea.normal / dynamic / diameter,
-            "tangential_drag": sea.tangential / dynamic / (np.pi * diameter),
-            "added_mass": sea.added / sea.displaced,
+            "diameter": diameter, "normal_drag": sea.normal / dynamic / diameter,
+            "tangential_drag": sea.tangential / dynamic / (np.pi * diameter), "added_mass": sea.added / sea.displaced,
         },
         "payload.water": {
-            "added_mass": sea.body_added,
-            "vertical_added_mass": sea.body_vertical,
-            "displaced_mass": sea.body_displaced,
-            "linear_drag": sea.body_linear,
-            "quadratic_drag": sea.body_quadratic,
+            "added_mass": sea.body_added, "vertical_added_mass": sea.body_vertical, "linear_drag": sea.body_linear,
+            "displaced_mass": sea.body_displaced, "quadratic_drag": sea.body_quadratic,
             "vertical_drag": sea.body_axial,
         },
-    }
+    }  # fmt: skip
 
 
 def _winch(problem: Problem) -> dict[str, Any]:
@@ -156,33 +138,28 @@ def _winch(problem: Problem) -> dict[str, Any]:
     return law | {"law": "cosine", "amplitude": problem.swing, "frequency": problem.frequency}
 
 
-def solve(problem: Problem, elements: int, step: float) -> Answer:
+def _solve(problem: Problem, elements: int, step: float) -> _Answer:
     """The engine's answer at the end."""
     run = engine.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
-    return Answer(
-        run["sigma"].values,
-        run["displacement"].values[-1],
-        run["velocity"].values[-1],
-        run["tip_displacement"].values,
-        run["tip_slope_rate"].values,
-    )
+    along = (run[name].values[-1] for name in ("displacement", "velocity"))
+    return _Answer(run["sigma"].values, *along, *(run[name].values for name in ("tip_displacement", "tip_slope_rate")))
 
 
-def errors(problem: Problem, elements: int) -> tuple[float, float, float]:
+def _errors(problem: Problem, elements: int) -> tuple[float, float, float]:
     """Root mean squares: of y and Dy/Dt along the cable at the end, of y at the ROV over time; no error in time.
 
     That is taken out by extrapolation from two steps.
     """
-    coarse, fine = (solve(problem, elements, step) for step in FINE_STEPS)
+    coarse, fine = (_solve(problem, elements, step) for step in FINE_STEPS)
     power = 2.0**TIME_ORDER
     y, w, tip, rate = ((power * f - c) / (power - 1.0) for c, f in zip(coarse[1:], fine[1:], strict=True))
-    without = Answer(fine.sigma, y, w, tip, rate)
+    without = _Answer(fine.sigma, y, w, tip, rate)
     off_y, off_w, off_tip = _missed(problem, without)
     y_rms, w_rms = (float(np.sqrt(np.trapezoid(off**2, fine.sigma))) for off in (off_y, off_w))
     return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))
 
 
-def _missed(problem: Problem, found: Answer) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _missed(problem: Problem, found: _Answer) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What y, Dy/Dt and y at the ROV are off by."""
     return (
         found.displacement - exact.displacement(problem, found.sigma, UNTIL),
@@ -193,44 +170,34 @@ def _missed(problem: Problem, found: Answer) -> tuple[np.ndarray, np.ndarray, np
 
 def in_space(problem: Problem) -> Iterator[Check]:
     """Orders in the size of an element, on four grids."""
-    found = np.array([errors(problem, n) for n in ELEMENTS])
+    found = np.array([_errors(problem, n) for n in ELEMENTS])
     sizes = tuple(60.0 / n for n in ELEMENTS)
-    why = "stated"
-    for row, name, order in zip(
-        found.T, ("y", "Dy/Dt", "y(l,t)"), (DISPLACEMENT_ORDER, VELOCITY_ORDER, TIP_ORDER), strict=True
-    ):
-        yield order_reached(Curve(name, "the element, m", sizes, tuple(row), order), why)
+    stated = {"y": DISPLACEMENT_ORDER, "Dy/Dt": VELOCITY_ORDER, "y(l,t)": TIP_ORDER}
+    for row, (name, order) in zip(found.T, stated.items(), strict=True):
+        yield order_reached(Curve(name, "the element, m", sizes, tuple(row), order), "stated")
     leading = exact.wave_amplitude(problem, UNTIL) * (exact.WAVENUMBER / ELEMENTS[-1]) ** 5 / (2.0**9 * 120.0)
-    yield small(
-        f"error of Dy/Dt on {ELEMENTS[-1]} elements, over the leading term",
-        found[-1, 1] / leading,
-        3.0,
-        "max |Dy/Dt +- c y_x| (k h)^5/(2^9 5!): what polynomials of degree 4 leave of a wave, at its worst place",
-    )
+    what = f"error of Dy/Dt on {ELEMENTS[-1]} elements, over the leading term"
+    why = "max |Dy/Dt +- c y_x| (k h)^5/(2^9 5!): what polynomials of degree 4 leave of a wave, at its worst place"
+    yield small(what, found[-1, 1] / leading, 3.0, why)
 
 
-def in_time(problem: Problem) -> Iterator[Check]:
+def _in_time(problem: Problem) -> Iterator[Check]:
     """Orders in the step, from differences on one grid, where the grid's own error drops out."""
-    solutions = [solve(problem, 8, step) for step in STEPS]
-    for place, name in ((1, "y"), (2, "Dy/Dt")):
-        changes = [b[place] - a[place] for a, b in pairwise(solutions)]
-        along = Curve(
-            f"{name}, change", "the step, s", STEPS[:-1], tuple(float(np.abs(c).max()) for c in changes), TIME_ORDER
-        )
-        yield order_reached(along, "stated")
-    at_tip = tuple(float(np.abs(b.tip - a.tip).max()) for a, b in pairwise(solutions))
-    yield order_reached(Curve("y(l,t), change", "the step, s", STEPS[:-1], at_tip, TIME_ORDER), "stated")
-    off = np.abs(_missed(problem, solve(problem, 32, 1e-3))[0]).max()
+    solutions = [_solve(problem, 8, step) for step in STEPS]
+    for place, name in ((1, "y"), (2, "Dy/Dt"), (3, "y(l,t)")):
+        changes = tuple(float(np.abs(b[place] - a[place]).max()) for a, b in pairwise(solutions))
+        yield order_reached(Curve(f"{name}, change", "the step, s", STEPS[:-1], changes, TIME_ORDER), "stated")
+    off = np.abs(_missed(problem, _solve(problem, 32, 1e-3))[0]).max()
     # Rates of p and q are up to 2 rad/s, and the moving domain adds to them.
     leading = 3.0 / 8.0 * 1e-9 * 2.5**4 * UNTIL
     why = "3/8 dt^3 y_tttt t, |y| = 1, were it never to change its sign"
     yield small("error of y at 1 ms on 32 elements, over the leading term", off / leading, 0.3, why)
 
 
-def slope_rate(swing: float) -> Iterator[Check]:
+def _slope_rate(swing: float) -> Iterator[Check]:
     """What an ideal sensor of the slope's rate reads at the ROV: no state, but made from the last element."""
     problem = Problem(swing)
-    found = solve(problem, 16, 1e-3).tip_slope_rate
+    found = _solve(problem, 16, 1e-3).tip_slope_rate
     exact_rate = exact.tip_slope_rate(problem, np.linspace(0.0, UNTIL, found.size))
     why = "a derivative on 16 elements; with the ROV's velocity of the wrong sign it misses by 8e-4"
     yield history_close("D(y_x)/Dt(l,t), 1/s", found, exact_rate, 8e-5, why)
@@ -239,7 +206,7 @@ def slope_rate(swing: float) -> Iterator[Check]:
 def terms_off() -> Iterator[Check]:
     """All terms at work, then each off in turn: where only the rows without it hold, it is the term that is wrong."""
     for name, problem in TERMS_OFF.items():
-        off = max(np.abs(part).max() for part in _missed(problem, solve(problem, 16, 1e-3)))
+        off = max(np.abs(part).max() for part in _missed(problem, _solve(problem, 16, 1e-3)))
         yield small(f"y, Dy/Dt, y(l,t): {name}", off, TERM_TOLERANCE, "ten times what grid and step leave")
 
 
@@ -247,18 +214,10 @@ REFERENCE = "y = p sin(k sigma) + q cos(k sigma)"
 SOURCE = "(6)-(8), loads derived by hand, checked by sympy"
 CASES = (
     *(
-        Case(
-            f"manufactured solution, l {way}, {what}",
-            REFERENCE,
-            SOURCE,
-            lambda find=find, swing=swing: find(Problem(swing)),
-        )
+        Case(f"manufactured solution, l {way}, {what}", REFERENCE, SOURCE, partial(find, Problem(swing)))
         for way, swing in SIZES.items()
-        for what, find in (("in space", in_space), ("in time", in_time))
+        for what, find in (("in space", in_space), ("in time", _in_time))
     ),
-    *(
-        Case(f"manufactured solution, l {way}, rate of the slope", REFERENCE, SOURCE, lambda s=swing: slope_rate(s))
-        for way, swing in SIZES.items()
-    ),
+    *each("manufactured solution, l {}, rate of the slope", REFERENCE, SOURCE, _slope_rate, SIZES),
     Case("manufactured solution, term by term", REFERENCE, SOURCE, terms_off),
 )

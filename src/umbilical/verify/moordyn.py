@@ -7,7 +7,7 @@ second order in their length. It is no reference for paying out: it rescales all
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -42,13 +42,13 @@ def vessel(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 @cache
-def exact(string: HangingString) -> np.ndarray:
+def _exact(string: HangingString) -> np.ndarray:
     """y(l,t), m, as the sum of 60 modes: six digits."""
     t = instants()
     return vessel(t)[0] + carried_tip(string, lambda u: vessel(u)[2], t)
 
 
-def tip_of_run(string: HangingString) -> np.ndarray:
+def _tip_of_run(string: HangingString) -> np.ndarray:
     """y(l,t), m, of the engine at the default grid."""
     scenario = hanging(
         string, duration=UNTIL, output__interval=lumped_mass.STEP,
@@ -58,43 +58,37 @@ def tip_of_run(string: HangingString) -> np.ndarray:
 
 
 @cache
-def other(string: HangingString, segments: int) -> np.ndarray:
+def _other(string: HangingString, segments: int) -> np.ndarray:
     """y(l,t), m, of MoorDyn."""
     e, velocity, _ = vessel(instants())
     return lumped_mass.tip(string, segments, e, velocity)
 
 
-def carried(string: HangingString) -> Iterator[Check]:
+def _carried(string: HangingString) -> Iterator[Check]:
     """Ours alone."""
-    yield history_close("y(l,t) over 50 s, m", tip_of_run(string), exact(string), TOLERANCE, WHY)
+    yield history_close("y(l,t) over 50 s, m", _tip_of_run(string), _exact(string), TOLERANCE, WHY)
 
 
-def side_by_side(string: HangingString) -> Iterator[Check]:
+def _side_by_side(string: HangingString) -> Iterator[Check]:
     """Both distances; ours must be far the smaller."""
-    peak = np.abs(exact(string)).max()
-    off = [float(np.abs(other(string, n) - exact(string)).max() / peak) for n in SEGMENTS]
+    peak = np.abs(_exact(string)).max()
+    off = [float(np.abs(_other(string, n) - _exact(string)).max() / peak) for n in SEGMENTS]
     for n, distance in zip(SEGMENTS, off, strict=True):
-        yield small(
-            f"MoorDyn's y(l,t), {n} segments, distance over peak", distance, 60.0 / n**2, "second order: 60/n^2"
-        )
-    mine = float(np.abs(tip_of_run(string) - exact(string)).max() / peak)
+        what = f"MoorDyn's y(l,t), {n} segments, distance over peak"
+        yield small(what, distance, 60.0 / n**2, "second order: 60/n^2")
+    mine = float(np.abs(_tip_of_run(string) - _exact(string)).max() / peak)
     yield small("our distance over that of MoorDyn at 100 segments", mine / off[-1], 0.01, "far smaller: a hundredth")
     sizes = tuple(string.length / n for n in SEGMENTS[1:])
     yield order_reached(Curve("MoorDyn's y(l,t)", "its segments, m", sizes, tuple(off[1:]), 2.0), "lumped masses")
 
 
 MODES = "e + sum of 60 Bessel modes"
+BESIDE = "moordyn, in {}, EA 1e8 N, RK4, cfl 0.1"
 CASES = (
-    Case("vessel in motion, l = 500 m", MODES, "forced hanging string", lambda: carried(IN_AIR)),
+    Case("vessel in motion, l = 500 m", MODES, "forced hanging string", partial(_carried, IN_AIR)),
     *(
-        Case(
-            f"vessel in motion, beside MoorDyn{where}",
-            MODES,
-            f"moordyn, in {'water' if where else 'vacuum'}, EA 1e8 N, RK4, cfl 0.1",
-            lambda string=string: side_by_side(string),
-            quick=False,
-            needs="moordyn",
-        )
+        Case(f"vessel in motion, beside MoorDyn{where}", MODES, BESIDE.format("water" if where else "vacuum"),
+             partial(_side_by_side, string), quick=False, needs="moordyn")
         for where, string in (("", IN_AIR), (", in water", IN_WATER))
     ),
-)
+)  # fmt: skip

@@ -23,43 +23,38 @@ STEP = 1e-6
 WHY = "asked for; a tenth more inertia misses by 1e-2"
 
 
-def drive(signal: list[dict[str, Any]], duration: float, step: float = 1e-3, **changes: float) -> Run:
+def _drive(signal: list[dict[str, Any]], duration: float, step: float = 1e-3, **changes: float) -> Run:
     """A motor whose drive gets ``signal``, V, and nothing else."""
     overrides = {
-        "control.law": {"kind": "none"},
-        "control.period": step,
-        "grid.step": step,
-        "grid.elements": 4,
-        "environment.payload_force": [],
-        "motors": [MOTOR | changes | {"voltage_disturbance": signal}],
-        "duration": duration,
-        "output.interval": step,
-    }
+        "control.law": {"kind": "none"}, "control.period": step, "grid": {"elements": 4, "step": step},
+        "environment.payload_force": [], "motors": [MOTOR | changes | {"voltage_disturbance": signal}],
+        "duration": duration, "output.interval": step,
+    }  # fmt: skip
     return engine.completed(load("paper", overrides))
 
 
-def held_voltage() -> Iterator[Check]:
+def _held_voltage() -> Iterator[Check]:
     """75.015 V hold 50 rad/s: K_t i = B w + K_Q w^2 = 2500.75 N m, U = R i + K_b w."""
     for sign in (1.0, -1.0):
-        run = drive([constant(sign * VOLTAGE)], 1.0)
+        run = _drive([constant(sign * VOLTAGE)], 1.0)
         speed, current = steady_state(MOTOR, sign * VOLTAGE)
         why = "round-off, once e^-70 is left of the start; a tenth more resistance misses by 1e-2"
         yield close(f"speed at {sign * VOLTAGE:g} V, rad/s", run["motor_speed"].values[-1, 0], speed, 1e-9, why)
         yield close(f"current at {sign * VOLTAGE:g} V, A", run["motor_current"].values[-1, 0], current, 1e-9, why)
 
 
-def step_from_rest() -> Iterator[Check]:
+def _step_from_rest() -> Iterator[Check]:
     """75.015 V on a motor at rest."""
-    run = drive([constant(VOLTAGE)], 0.3)
+    run = _drive([constant(VOLTAGE)], 0.3)
     speed, current = integrate(MOTOR, VOLTAGE, (0.0, 0.0), run["time"].values)
     yield history_close("speed over 0.3 s, rad/s", run["motor_speed"].values[:, 0], speed, STEP, WHY)
     yield history_close("current over 0.3 s, A", run["motor_current"].values[:, 0], current, STEP, WHY)
 
 
-def reversal() -> Iterator[Check]:
+def _reversal() -> Iterator[Check]:
     """|w| w is only once differentiable at 0, which costs digits; the jump is an instant between two steps."""
     jump = 0.1003
-    run = drive([constant(50.0), {"kind": "step", "value": -100.0, "time": jump}], 0.3)
+    run = _drive([constant(50.0), {"kind": "step", "value": -100.0, "time": jump}], 0.3)
     t = run["time"].values
     before = integrate(MOTOR, 50.0, (0.0, 0.0), np.append(t[t < jump], jump))
     after = integrate(MOTOR, -50.0, (before[0, -1], before[1, -1]), np.append(jump, t[t > jump]))
@@ -69,14 +64,14 @@ def reversal() -> Iterator[Check]:
     yield history_close("current over 0.3 s, A", run["motor_current"].values[:, 0], exact[1], 3.0 * STEP, why)
 
 
-def poles() -> Iterator[Check]:
+def _poles() -> Iterator[Check]:
     """Without a propeller, and around 50 rad/s, the motor is linear."""
-    run = drive([constant(1.0)], 0.2, load_coefficient=0.0)
+    run = _drive([constant(1.0)], 0.2, load_coefficient=0.0)
     exact = linear_step(MOTOR | {"load_coefficient": 0.0}, 0.0, 1.0, run["time"].values)
     yield history_close("speed without a propeller, rad/s", run["motor_speed"].values[:, 0], exact, STEP, WHY)
     change, begin = 1e-3, 0.5
     jumping = [constant(VOLTAGE), {"kind": "step", "value": change, "time": begin}]
-    perturbed, steady = drive(jumping, 0.6), drive([constant(VOLTAGE)], 0.6)
+    perturbed, steady = _drive(jumping, 0.6), _drive([constant(VOLTAGE)], 0.6)
     t = perturbed["time"].values
     late = t >= begin
     found = (perturbed["motor_speed"].values - steady["motor_speed"].values)[late, 0]
@@ -84,11 +79,11 @@ def poles() -> Iterator[Check]:
     yield history_close("change of speed after 1 mV, rad/s", found, exact, 1e-4, "what is not linear in 1 mV")
 
 
-def vanishing_inductance() -> Iterator[Check]:
+def _vanishing_inductance() -> Iterator[Check]:
     """The distance to the limit falls with L."""
     t, found = np.zeros(0), []
     for inductance in (4e-5, 2e-5):
-        run = drive([constant(VOLTAGE)], 0.02, step=2.5e-4, inductance=inductance)
+        run = _drive([constant(VOLTAGE)], 0.02, step=2.5e-4, inductance=inductance)
         t = run["time"].values
         found.append(run["motor_speed"].values[:, 0])
     exact = without_inductance(MOTOR, VOLTAGE, t)
@@ -102,9 +97,9 @@ def vanishing_inductance() -> Iterator[Check]:
 
 INTEGRATED = "DOP853 at 1e-12"
 CASES = (
-    Case("motor, steady state", "sgn(G)(-b + sqrt(b^2 + 4 K_Q |G|))/(2 K_Q)", "eq. (15) at rest", held_voltage),
-    Case("motor, step from rest", INTEGRATED, "eq. (15)", step_from_rest),
-    Case("motor, reversal through zero", INTEGRATED, "eq. (15)", reversal),
-    Case("motor, poles", "exponentials of its poles", "eq. (15) linearised", poles),
-    Case("motor, L -> 0", "a tanh", "eq. (15) without i'", vanishing_inductance),
+    Case("motor, steady state", "sgn(G)(-b + sqrt(b^2 + 4 K_Q |G|))/(2 K_Q)", "eq. (15) at rest", _held_voltage),
+    Case("motor, step from rest", INTEGRATED, "eq. (15)", _step_from_rest),
+    Case("motor, reversal through zero", INTEGRATED, "eq. (15)", _reversal),
+    Case("motor, poles", "exponentials of its poles", "eq. (15) linearised", _poles),
+    Case("motor, L -> 0", "a tanh", "eq. (15) without i'", _vanishing_inductance),
 )

@@ -14,7 +14,7 @@ import numpy as np
 
 from umbilical.run import Run
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, history_close
+from umbilical.verify.cases import Check, each, history_close
 from umbilical.verify.engine import STEADY_TENSION, constant, open_loop, sine
 from umbilical.verify.references.characteristics import HeldEnd, MovingEnd
 
@@ -66,53 +66,38 @@ def steady(speed: float, **changes: Any) -> Setting:
     return Setting(lambda t: 250.0 + speed * t, {"law": "speed", "start_length": 250.0, "speed": speed}, **changes)
 
 
-def gentle(size: float, frequency: float) -> list[dict[str, Any]]:
+def _gentle(size: float, frequency: float) -> list[dict[str, Any]]:
     """The terms of ``size (1 - cos w t)^2``."""
     quarter = np.pi / 2.0
     terms = [constant(1.5 * size), sine(-2.0 * size, frequency, quarter), sine(0.5 * size, 2.0 * frequency, quarter)]
     return terms if size else []
 
 
-def run(setting: Setting, step: float = 1e-3) -> Run:
+def _run(setting: Setting, step: float = 1e-3) -> Run:
     """The engine's answer."""
     scenario = open_loop(
-        winch=setting.winch,
+        winch=setting.winch, payload={"mass": setting.mass, "damping": setting.damping}, cable__damping=0.0,
         initial={"shape": "gaussian", "amplitude": setting.bump, "distance": setting.center, "width": setting.width},
-        payload={"mass": setting.mass, "damping": setting.damping},
-        environment__gravity=setting.gravity,
-        environment__payload_force=gentle(setting.push, PUSHED),
-        environment__vessel_motion=gentle(setting.shake, SHAKEN),
-        cable__damping=0.0,
-        duration=setting.until,
-        grid__step=step,
-        control__period=max(step, 1e-3),
-        output__interval=0.01 * setting.until,
-    )
+        environment__gravity=setting.gravity, environment__payload_force=_gentle(setting.push, PUSHED),
+        environment__vessel_motion=_gentle(setting.shake, SHAKEN), duration=setting.until, grid__step=step,
+        control__period=max(step, 1e-3), output__interval=0.01 * setting.until,
+    )  # fmt: skip
     return engine.completed(scenario.replace(STEADY_TENSION))
 
 
 def reference(setting: Setting, **resolution: int) -> MovingEnd:
     """The solution along characteristics, some seconds longer than the run, for what is still under way."""
-    return MovingEnd(
-        setting.tension,
-        2.0,
-        setting.mass,
-        setting.damping,
-        setting.length,
-        setting.start,
-        1.2 * setting.until,
-        setting.impulse,
-        setting.vessel,
-        **resolution,
-    )
+    s = setting
+    cable = (s.tension, 2.0, s.mass, s.damping, s.length, s.start, 1.2 * s.until, s.impulse, s.vessel)
+    return MovingEnd(*cable, **resolution)
 
 
-def compared(setting: Setting, exact: Callable[[Setting], Any] = reference, step: float = 1e-3) -> Iterator[Check]:
+def _compared(setting: Setting, exact: Callable[[Setting], Any] = reference, step: float = 1e-3) -> Iterator[Check]:
     """Everywhere and at the ROV, each over the peak of the reference there.
 
     The slope and the velocity too: a flux wrong between elements only leaves them wrong inside, and y nearly right.
     """
-    found, solution = run(setting, step), exact(setting)
+    found, solution = _run(setting, step), exact(setting)
     fields = {name: found[name].values for name in ("displacement", "slope", "velocity")}
     instants = found["time"].values
     distances = np.multiply.outer(setting.length(instants), 1.0 - found["sigma"].values)
@@ -137,10 +122,10 @@ def _differences(f: Callable[[float], np.ndarray]) -> np.ndarray:
     return (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / 12.0
 
 
-def held(speed: float) -> Iterator[Check]:
+def _held(speed: float) -> Iterator[Check]:
     """The ROV held by its own mass of 1e9 kg."""
     setting = steady(speed, mass=1e9, gravity=5e-6, damping=0.0)
-    return compared(setting, lambda s: HeldEnd(50.0, 250.0, speed, s.start))
+    return _compared(setting, lambda s: HeldEnd(50.0, 250.0, speed, s.start))
 
 
 DELAY = "m V' + (Z + k) V = P + 2 Z h' along characteristics, to 1e-10"
@@ -155,18 +140,6 @@ WAYS = {
 PHASE = "R = 2 ln(1 + b c t/l0)/ln((1 + b)/(1 - b))"
 
 CASES = (
-    *(
-        Case(f"moving end, {name}", DELAY, SOURCE, lambda setting=setting: compared(setting))
-        for name, setting in WAYS.items()
-    ),
-    *(
-        Case(
-            f"moving end, ROV held, {speed:+g} m/s",
-            PHASE,
-            "Moore 1970; Balazs 1961",
-            lambda speed=speed: held(speed),
-            quick=False,
-        )
-        for speed in (5.0, -4.0)
-    ),
+    *each("moving end, {}", DELAY, SOURCE, _compared, WAYS),
+    *each("moving end, ROV held, {:+g} m/s", PHASE, "Moore 1970; Balazs 1961", _held, (5.0, -4.0), quick=False),
 )

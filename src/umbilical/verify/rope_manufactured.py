@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -13,11 +12,11 @@ from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, Rop
 from umbilical.plant.rope.rates import evaluate
 from umbilical.plant.rope.records import RopeState, make_state
 from umbilical.plant.rope.statics import node_positions, unknowns
-from umbilical.verify.cases import Case, Check, order_reached, small
+from umbilical.verify.cases import Case, Check, each, order_reached, small
 from umbilical.verify.orders import ROPE_ORDER, TIME_ORDER
 from umbilical.verify.references import manufactured_rope as exact
 from umbilical.verify.references.manufactured_rope import Problem
-from umbilical.verify.rope import COMPUTED, quintic, waving
+from umbilical.verify.rope import COMPUTED, smooth_winch, waving
 
 UNTIL = 1.0
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3)
@@ -26,7 +25,7 @@ STEP = 0.0256
 """s times elements: of the classical Runge-Kutta method, whose own error stays below the grid's."""
 
 
-class Driven:
+class _Driven:
     """The engine's rates with the loads of the manufactured solution, stepped by the classical Runge-Kutta method."""
 
     def __init__(self, problem: Problem, elements: int) -> None:
@@ -82,18 +81,15 @@ class Driven:
         weights = np.array([1 / 10, 49 / 90, 32 / 45, 49 / 90, 1 / 10]) / (2.0 * self.elements)
         square = np.einsum("j,jie->i", weights, off**2)
         length = self.problem.winch(UNTIL)[0]
-        return (
-            float(np.sqrt(square[:3].sum())) / length,
-            float(np.sqrt(square[3:].sum())),
-            float(np.abs(self.state.body[0] - body).max()),
-        )
+        slope, velocity = (float(np.sqrt(part.sum())) for part in (square[:3], square[3:]))
+        return slope / length, velocity, float(np.abs(self.state.body[0] - body).max())
 
 
-def in_space(swing: float) -> Iterator[Check]:
+def _in_space(swing: float) -> Iterator[Check]:
     """Orders in the size of an element, and what is left on the finest grid."""
     rows = []
     for elements in ELEMENTS:
-        driven = Driven(Problem(swing), elements)
+        driven = _Driven(Problem(swing), elements)
         driven.march()
         rows.append(driven.missed())
     found, sizes = np.array(rows), tuple(60.0 / n for n in ELEMENTS)
@@ -104,11 +100,11 @@ def in_space(swing: float) -> Iterator[Check]:
     yield small("error of the body's velocity, m/s", found[-1, 2], 5e-9, "four times what was found")
 
 
-def in_time() -> Iterator[Check]:
+def _in_time() -> Iterator[Check]:
     """The order in the step, from differences on one grid: paying out, the vessel in motion, in a current, taut."""
     cable = CableData(2e4, 2.0, 15.0, 0.04, 1.2)
     body = BodyData(40.0, 300.0, 20.0, drag=10.0)
-    motion = Motion(quintic(60.0, 61.0, 2.0), waving({0: (0.3, 2.0), 2: (0.1, 2.5)}, 1.0))
+    motion = Motion(smooth_winch(60.0, 61.0, 2.0), waving({0: (0.3, 2.0), 2: (0.1, 2.5)}, 1.0))
     found = []
     for step in STEPS:
         model = RopeModel(cable, body, motion, Current(velocities=((0.3, -0.4, 0.0),)), elements=4, step=step)
@@ -120,9 +116,7 @@ def in_time() -> Iterator[Check]:
 
 REFERENCE = "r = a + b sigma + c sin(k sigma) + d cos(k sigma)"
 CASES = (
-    *(
-        Case(f"rope, manufactured, l {way}", REFERENCE, "derived by hand from docs/rope.md", partial(in_space, swing))
-        for way, swing in (("growing", 4.0), ("shrinking", -4.0))
-    ),
-    Case("rope, order in time", "differences of steps", COMPUTED, in_time),
-)
+    *each("rope, manufactured, l {}", REFERENCE, "derived by hand from docs/rope.md", _in_space,
+          {"growing": 4.0, "shrinking": -4.0}),
+    Case("rope, order in time", "differences of steps", COMPUTED, _in_time),
+)  # fmt: skip

@@ -7,16 +7,16 @@ from functools import partial
 
 import numpy as np
 
-from umbilical.engine.simulate import simulate
 from umbilical.library import load
 from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, fixed
 from umbilical.plant.rope.step import largest_step
 from umbilical.plant.seaway import sheave
 from umbilical.scenario.signals import Waves
+from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each_close, small
 from umbilical.verify.references import rope as reference
 from umbilical.verify.references.sea import WORK_CLASS, masses_in_waves, work_class_statistics
-from umbilical.verify.rope import COMPUTED, G, steady, waving
+from umbilical.verify.rope import COMPUTED, G, left_over, norm, recorded, steady, waving
 
 WINDOW = 0.025
 """s; peaks behind a front are those of the mean over it: at the front itself any grid rings."""
@@ -24,7 +24,7 @@ FINE = 2.5e-4
 """s; a step at which the grid's own error is left."""
 
 
-def front(elements: int, tolerance: float) -> Iterator[Check]:
+def _front(elements: int, tolerance: float) -> Iterator[Check]:
     """A heave velocity that sets in at once runs down 1000 m to a body."""
     omega, speed, impedance = 2.0 * np.pi / 0.4, 0.157, float(np.sqrt(3.0 * 2e7))
 
@@ -47,7 +47,7 @@ def front(elements: int, tolerance: float) -> Iterator[Check]:
     yield _read_peak("at the body", longest[:, 0], 2.0 * impedance * speed, 1.2 / elements, elements)
 
 
-def impact(elements: int, tolerance: float) -> Iterator[Check]:
+def _impact(elements: int, tolerance: float) -> Iterator[Check]:
     """A body starts at 1 m/s downwards on a taut cable: the peaks are twice v sqrt(K M) and more."""
 
     def model() -> RopeModel:
@@ -90,11 +90,8 @@ def _follow(model: RopeModel, duration: float, dt: float) -> tuple[np.ndarray, n
     start = np.array([model.tension[-1], model.tension[0]])
     if model.body_velocity.any():
         start[0] = model.rope.body_weight
-    rows = []
-    for _ in range(round(duration / dt)):
-        model.step(dt)
-        rows.append((float(np.linalg.norm(model.end_pull)), float(np.linalg.norm(model.top_pull))))
-    return dt * np.arange(1, len(rows) + 1), np.array(rows) - start
+    rows = recorded(model, dt, round(duration / dt), lambda: (norm(model.end_pull), norm(model.top_pull)))
+    return dt * np.arange(1, len(rows) + 1), rows - start
 
 
 def _peak(times: np.ndarray, values: np.ndarray) -> float:
@@ -112,13 +109,11 @@ def _heaved(amplitude: float, elements: int, duration: float) -> tuple[np.ndarra
     motion = Motion(steady(1000.0), waving({2: (amplitude, 2.0 * np.pi / 8.0)}, 20.0))
     model = RopeModel(HEAVED, HEAVED_BODY, motion, elements=elements, booked=True)
     model.step(60.0)
-    rows = []
-    for _ in range(round(duration / 0.01)):
-        model.step(0.01)
-        rows.append(
-            (float(np.linalg.norm(model.top_pull)), model.body_position[2], float(np.linalg.norm(model.end_pull)))
-        )
-    return np.array(rows), model
+
+    def read() -> tuple[float, float, float]:
+        return norm(model.top_pull), model.body_position[2], norm(model.end_pull)
+
+    return recorded(model, 0.01, round(duration / 0.01), read), model
 
 
 def _masses(amplitude: float, masses: int, duration: float) -> np.ndarray:
@@ -140,7 +135,7 @@ def _said(rows: np.ndarray) -> np.ndarray:
     return np.array([rows[:, 0].max(), rows[:, 0].min(), 0.5 * np.ptp(rows[:, 1])])
 
 
-def taut_heave() -> Iterator[Check]:
+def _taut_heave() -> Iterator[Check]:
     """A work-class body on 1000 m in 0.8 m of heave, 8 s, with drag."""
     found, model = _heaved(0.8, 10, 40.0)
     coarse, fine = (_said(_masses(0.8, count, 40.0)) for count in (40, 80))
@@ -148,18 +143,17 @@ def taut_heave() -> Iterator[Check]:
     why = "masses on 40 and 80 springs, second order taken out"
     yield each_close("tension at the top, largest and smallest, N", _said(found)[:2], exact[:2], 1e-3, why)
     yield close("half the swing of the body, m", float(_said(found)[2]), float(exact[2]), 1e-3, why)
-    works = model.works
-    gross = sum(abs(work) for work in works.values())
-    yield small("power balance, what is left over gross work", _left(model) / gross, 1e-6, "time integration")
+    yield _balance(model, 1e-6, "time integration")
 
 
-def _left(model: RopeModel) -> float:
-    """Energy less all work since the start from rest, J."""
+def _balance(model: RopeModel, tolerance: float, why: str) -> Check:
+    """What the balance leaves open since the start from rest."""
     still = RopeModel(HEAVED, HEAVED_BODY, fixed(1000.0), elements=model.elements)
-    return model.energy - still.energy - sum(model.works.values())
+    gross = sum(abs(work) for work in model.works.values())
+    return small("power balance, what is left over gross work", left_over(model, still.energy) / gross, tolerance, why)
 
 
-def snapping() -> Iterator[Check]:
+def _snapping() -> Iterator[Check]:
     """2 m of heave: slack and snaps, on three grids, against masses on springs."""
     lumped = _masses(2.0, 60, 80.0)
     share = float(np.mean(lumped[:, 2] < 1.0))
@@ -169,11 +163,10 @@ def snapping() -> Iterator[Check]:
         yield close("half the swing of the body, m", float(_said(rows)[2]), float(_said(lumped)[2]), 5e-3, why)
         yield small("share of time with slack at the body, off by", float(np.mean(rows[:, 2] < 1.0)) - share, 1e-2, why)
         yield close("largest tension at the top, N", float(rows[:, 0].max()), float(lumped[:, 0].max()), 0.05, why)
-        gross = sum(abs(work) for work in model.works.values())
-        yield small("power balance, what is left over gross work", _left(model) / gross, 2e-3, "steps through snaps")
+        yield _balance(model, 2e-3, "steps through snaps")
 
 
-def irregular() -> Iterator[Check]:
+def _irregular() -> Iterator[Check]:
     """An hour of irregular sea on 3000 m, bow quarter, Hs 2.5 m, against masses on springs in the same sea.
 
     Drag across the cable stays: without any the vessel's sway and the swing of the tension build up metres of
@@ -182,7 +175,7 @@ def irregular() -> Iterator[Check]:
     still = {"cable.water.tangential_drag": 0.0, "environment.water.current": None}
     coarse = {"control.period": 0.05, "grid.step": 0.05, "output.interval": 0.25, "duration": 3800.0}
     scenario = load("work-class-3000m", still | coarse)
-    late = simulate(scenario).data.sel(time=slice(200.0, None))
+    late = engine.completed(scenario).data.sel(time=slice(200.0, None))
     body = late["body_position"].isel(axis=2)
     found = np.array([float(part.std()) for part in (late["top_tension"], late["end_tension"], body)])
     (up,) = sheave(scenario.environment).up
@@ -198,16 +191,15 @@ def irregular() -> Iterator[Check]:
     yield each_close("rms of tensions, N, and heave, m, against stochastic linearisation", found, rms, 0.08, why)
 
 
+FRONTS, IMPACTS = {10: 0.08, 20: 0.04, 40: 0.02}, {10: 0.05, 20: 0.04, 40: 0.02}
+"""Tolerances of both on so many elements."""
 CASES = (
     *(
-        Case(f"rope, front, {n} elements", "characteristics", COMPUTED, partial(front, n, tolerance), quick=n < 20)
-        for n, tolerance in ((10, 0.08), (20, 0.04), (40, 0.02))
+        Case(f"rope, {name}, {n} elements", "characteristics", COMPUTED, partial(find, n, tolerance), quick=n < 20)
+        for name, find, grids in (("front", _front, FRONTS), ("impact", _impact, IMPACTS))
+        for n, tolerance in grids.items()
     ),
-    *(
-        Case(f"rope, impact, {n} elements", "characteristics", COMPUTED, partial(impact, n, tolerance), quick=n < 20)
-        for n, tolerance in ((10, 0.05), (20, 0.04), (40, 0.02))
-    ),
-    Case("rope, taut heave", "masses on springs", COMPUTED, taut_heave, quick=False),
-    Case("rope, irregular sea", "masses on springs; stochastic linearisation", COMPUTED, irregular, quick=False),
-    Case("rope, snaps", "masses on springs without push", COMPUTED, snapping, quick=False),
+    Case("rope, taut heave", "masses on springs", COMPUTED, _taut_heave, quick=False),
+    Case("rope, irregular sea", "masses on springs; stochastic linearisation", COMPUTED, _irregular, quick=False),
+    Case("rope, snaps", "masses on springs without push", COMPUTED, _snapping, quick=False),
 )

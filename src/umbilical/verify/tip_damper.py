@@ -9,7 +9,7 @@ from xarray import DataArray
 
 from umbilical.scenario.scenario import Scenario
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
+from umbilical.verify.cases import Case, Check, close, each, each_close, history_close, small
 from umbilical.verify.engine import STEADY_TENSION, open_loop, sine
 from umbilical.verify.references.hanging_string import HangingString, damped_poles, frequencies
 
@@ -20,30 +20,31 @@ REAL = 1e-3
 WHY_REAL = "decay is a small part of a pole, so it gets a digit less"
 
 
-def damped(cable: float, payload: float) -> Scenario:
+def _damped(cable: float, payload: float) -> Scenario:
     """The 400 m cable with dampers, N s/m2 and N s/m."""
     scenario = open_loop(winch__length=STRING.length, grid__elements=24)
     return scenario.replace({"cable.damping": cable, "payload.damping": payload})
 
 
-def proportional() -> Iterator[Check]:
+def _proportional() -> Iterator[Check]:
     """With c_tip = c m/rho every mode decays alike."""
     rate = 0.04 / (2.0 * STRING.line_density)
-    found = engine.poles(damped(0.04, 0.04 * STRING.mass / STRING.line_density), 6)
     exact = -rate + 1j * np.sqrt(frequencies(STRING, 6) ** 2 - rate**2)
-    yield each_close("six poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
-    yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
+    return _poles_close("six", _damped(0.04, 0.04 * STRING.mass / STRING.line_density), exact)
 
 
-def at_the_payload(damping: float) -> Iterator[Check]:
+def _at_the_payload(damping: float) -> Iterator[Check]:
     """Roots of the damped frequency equation."""
-    found = engine.poles(damped(0.0, damping), 5)
-    exact = damped_poles(STRING, damping, 5)
-    yield each_close("five poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
+    return _poles_close("five", _damped(0.0, damping), damped_poles(STRING, damping, 5))
+
+
+def _poles_close(count: str, scenario: Scenario, exact: np.ndarray) -> Iterator[Check]:
+    found = engine.poles(scenario, exact.size)
+    yield each_close(f"{count} poles, 1/s, the worst", found, exact, TOLERANCE, WHY)
     yield each_close("their decay, 1/s, the worst", np.real(found), np.real(exact), REAL, WHY_REAL)
 
 
-def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
+def _reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
     """Amplitude and phase that come back from the ROV, from a cable shaken at the vessel until nothing else is left.
 
     Constant tension: T = 5000 N, c = 50 m/s, Z = 100 N s/m. Up to down, ``R = (Z - k - i w m)/(Z + k + i w m)``.
@@ -67,16 +68,16 @@ def reflection(damping: float, frequency: float = 0.3) -> Iterator[Check]:
     yield close("arg R, rad", np.angle(found), np.angle(exact), REAL, "the same")
 
 
-def swallowed() -> Iterator[Check]:
+def _swallowed() -> Iterator[Check]:
     """A damper of k = Z without mass: whatever comes in stays, and after 2 l/c nothing moves any more."""
-    late = pulse_returned(1.0, 2.0 * LIGHT_LENGTH / LIGHT_SPEED)
+    late = _pulse_returned(1.0, 2.0 * LIGHT_LENGTH / LIGHT_SPEED)
     yield small("largest |y| after 2 l/c, m", float(np.abs(late.values).max()), GRAMS, WHY_GRAMS)
 
 
-def returned() -> Iterator[Check]:
+def _returned() -> Iterator[Check]:
     """A pulse of half a metre on its way back from dampers below and above Z."""
     for share in (0.5, 3.0):
-        back = pulse_returned(share, 48.0).isel(time=0)
+        back = _pulse_returned(share, 48.0).isel(time=0)
         above = LIGHT_LENGTH * (1.0 - back["sigma"].values)
         way = above - (LIGHT_SPEED * 48.0 - PULSE_AT)
         exact = 0.5 * (1.0 - share) / (1.0 + share) * np.exp(-((way / PULSE_WIDTH) ** 2))
@@ -89,7 +90,7 @@ GRAMS = 1e-2
 WHY_GRAMS = "what the 31 g of its ROV do; a damper off by two misses by 3e-1"
 
 
-def pulse_returned(share: float, since: float) -> DataArray:
+def _pulse_returned(share: float, since: float) -> DataArray:
     """y from ``since`` on: T = 3.125 N, Z = 2.5 N s/m, a damper of ``share`` Z, a pulse let go near the ROV."""
     scenario = open_loop(
         winch__length=LIGHT_LENGTH, payload={"mass": 0.03125, "damping": 2.5 * share}, environment__gravity=100.0,
@@ -99,28 +100,14 @@ def pulse_returned(share: float, since: float) -> DataArray:
     return engine.completed(scenario.replace(STEADY_TENSION))["displacement"].sel(time=slice(since - 1e-6, None))
 
 
+ZERO = "(m s^2 + c_tip s) Y + T Y_x = 0, Bessel functions"
+STRING_Z = "impedance of a string, Z = sqrt(rho T)"
 CASES = (
-    Case("damper that swallows everything", "y = 0 after 2 l/c", "impedance of a string, k = Z", swallowed),
-    Case("pulse back from a damper", "(Z - k)/(Z + k)", "impedance of a string, Z = sqrt(rho T)", returned),
-    Case(
-        "damping in proportion to the mass", "-c/(2 rho) +- i sqrt(w^2 - (c/2 rho)^2)", "Rayleigh damping", proportional
-    ),
-    *(
-        Case(
-            f"damper of {damping:g} N s/m at the ROV",
-            "(m s^2 + c_tip s) Y + T Y_x = 0, Bessel functions",
-            "boundary condition (8)",
-            lambda damping=damping: at_the_payload(damping),
-        )
-        for damping in (40.0, 400.0)
-    ),
-    *(
-        Case(
-            f"reflection at the ROV, damper {damping:g} N s/m",
-            "(Z - k - i w m)/(Z + k + i w m)",
-            "impedance of a string, Z = sqrt(rho T)",
-            lambda damping=damping: reflection(damping),
-        )
-        for damping in (40.0, 100.0)
-    ),
-)
+    Case("damper that swallows everything", "y = 0 after 2 l/c", "impedance of a string, k = Z", _swallowed),
+    Case("pulse back from a damper", "(Z - k)/(Z + k)", STRING_Z, _returned),
+    Case("damping in proportion to the mass", "-c/(2 rho) +- i sqrt(w^2 - (c/2 rho)^2)", "Rayleigh damping",
+         _proportional),
+    *each("damper of {:g} N s/m at the ROV", ZERO, "boundary condition (8)", _at_the_payload, (40.0, 400.0)),
+    *each("reflection at the ROV, damper {:g} N s/m", "(Z - k - i w m)/(Z + k + i w m)", STRING_Z, _reflection,
+          (40.0, 100.0)),
+)  # fmt: skip

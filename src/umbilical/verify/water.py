@@ -11,7 +11,7 @@ from umbilical.library import load
 from umbilical.plant.equilibrium import equilibrium
 from umbilical.relations import tension as law
 from umbilical.verify import engine
-from umbilical.verify.cases import Case, Check, close, each_close, history_close, small
+from umbilical.verify.cases import Case, Check, close, each, each_close, history_close, small
 from umbilical.verify.engine import open_loop
 from umbilical.verify.hanging_string import BESSEL
 from umbilical.verify.hanging_string import SOURCE as CHAIN
@@ -25,53 +25,36 @@ DISPLACED = DENSITY * np.pi * DIAMETER**2 / 4.0
 """1.288 kg/m."""
 LINE, WET, MASS, WEIGHT = 5.412, 4.124, 9000.0, 35e3
 BODY: dict[str, Any] = {
-    "added_mass": 8000.0,
-    "vertical_added_mass": 8000.0,
-    "quadratic_drag": 3000.0,
-    "vertical_drag": 4500.0,
-}
+    "added_mass": 8000.0, "vertical_added_mass": 8000.0, "quadratic_drag": 3000.0, "vertical_drag": 4500.0,
+}  # fmt: skip
 UNIFORM = {"depths": [0.0, 1000.0], "speeds": [0.5, 0.5]}
 SHEARED = {"depths": [0.0, 200.0], "speeds": [0.5, 0.1]}
 SEA: dict[str, Any] = {
-    "environment.gravity": GRAVITY,
-    "environment.water": {"density": DENSITY, "current": SHEARED},
-    "cable.line_density": LINE,
-    "cable.wet_line_density": WET,
-    "cable.water": {"diameter": DIAMETER},
-    "payload.mass": MASS,
-    "payload.wet_weight": WEIGHT,
-    "payload.water": BODY,
-}
+    "environment.gravity": GRAVITY, "environment.water": {"density": DENSITY, "current": SHEARED},
+    "cable.line_density": LINE, "cable.wet_line_density": WET, "cable.water": {"diameter": DIAMETER},
+    "payload.mass": MASS, "payload.wet_weight": WEIGHT, "payload.water": BODY,
+}  # fmt: skip
 """A TMS with its ROV on an umbilical of 40 mm in a sheared current."""
 
 
 def string(length: float, **changes: Any) -> Any:
     """That string in open loop at a constant length, m."""
-    return open_loop(winch={"law": "constant", "length": length}).replace(
-        SEA | engine.UNDAMPED | engine.dotted(changes)
-    )
+    hung = open_loop(winch={"law": "constant", "length": length})
+    return hung.replace(SEA | engine.UNDAMPED | engine.dotted(changes))
 
 
-def returned(speed: float) -> Iterator[Check]:
+def _returned(speed: float) -> Iterator[Check]:
     """A bump meets the sheave while the cable slides through it."""
     exact, until = Sliding(60e3, 5.408, DISPLACED, speed), 5.0
-    run = engine.completed(
-        string(
-            1000.0,
-            winch={"law": "speed", "start_length": 1000.0, "speed": speed},
-            initial={"shape": "gaussian", "amplitude": 1.0, "distance": 1000.0 - exact.center, "width": exact.width},
-            cable__line_density=exact.line_density,
-            cable__wet_line_density=0.0,
-            cable__water={"diameter": DIAMETER, "normal_drag": 0.0, "tangential_drag": 0.0},
-            environment__water__current=None,
-            payload__wet_weight=exact.tension,
-            payload__water=BODY | {"quadratic_drag": 0.0, "vertical_drag": 0.0},
-            grid__elements=120,
-            grid__step=5e-4,
-            duration=until,
-            output__interval=until,
-        )
-    )
+    run = engine.completed(string(
+        1000.0, winch={"law": "speed", "start_length": 1000.0, "speed": speed},
+        initial={"shape": "gaussian", "amplitude": 1.0, "distance": 1000.0 - exact.center, "width": exact.width},
+        cable__line_density=exact.line_density, cable__wet_line_density=0.0,
+        cable__water={"diameter": DIAMETER, "normal_drag": 0.0, "tangential_drag": 0.0},
+        environment__water__current=None, payload__wet_weight=exact.tension,
+        payload__water=BODY | {"quadratic_drag": 0.0, "vertical_drag": 0.0},
+        grid__elements=120, grid__step=5e-4, duration=until, output__interval=until,
+    ))  # fmt: skip
     x = run["sigma"].values * (1000.0 + speed * until)
     parts = exact.parts(x, until)
     y, slope, rate = (np.sum(fields, axis=0) for fields in zip(*parts, strict=True))
@@ -85,7 +68,7 @@ def returned(speed: float) -> Iterator[Check]:
     yield close(f"slope returned over slope that came, {speed:g} m/s", ratio, exact.reflection, 1e-4, why)
 
 
-def tensions() -> Iterator[Check]:
+def _tensions() -> Iterator[Check]:
     """Buoyancy bears weight and accelerates nothing."""
     s, a = np.linspace(0.0, 700.0, 50), 0.3
     light = law.hanging(500.0, 2.0, GRAVITY, 4000.0, 0.0)
@@ -102,21 +85,20 @@ ALONE = IN_CURRENT._replace(force=0.0)
 """The same with a body that nothing drags."""
 
 
-def statics() -> Iterator[Check]:
+def _statics() -> Iterator[Check]:
     """The offset in a uniform current, what holds it back, and a run that starts there and stays."""
     scenario = string(1000.0, environment__water__current=UNIFORM, grid__elements=16)
     free, held = equilibrium(scenario), equilibrium(scenario, tip=0.0)
     yield close("y(l) in 0.5 m/s, m", free.displacement[-1], IN_CURRENT.offset(), 1e-4, "four digits")
     yield close("force that holds it, N", held.thrust, IN_CURRENT.holding(), 1e-4, "four digits")
-    still = engine.completed(
-        scenario.replace({"initial": {"shape": "equilibrium"}, "duration": 100.0, "output.interval": 10.0})
-    )
+    changes = {"initial": {"shape": "equilibrium"}, "duration": 100.0, "output.interval": 10.0}
+    still = engine.completed(scenario.replace(changes))
     y = still["displacement"].values
     there = np.broadcast_to(np.interp(still["sigma"].values, free.sigma, free.displacement), y.shape)
     yield history_close("y over 100 s from there, m", y, there, 1e-4, "four digits")
 
 
-def station(options: dict[str, float], place: float, thrust: float) -> Iterator[Check]:
+def _station(options: dict[str, float], place: float, thrust: float) -> Iterator[Check]:
     """The boundary law with all it wants to know, for 3000 s."""
     outer = {"kind": "boundary", "damping_gain": 1e4, "slope_gain": 5.0, "rates": "sensor", **options}
     scenario = load("paper", {
@@ -133,10 +115,7 @@ def station(options: dict[str, float], place: float, thrust: float) -> Iterator[
     yield small("thrust less what holds it there, over 2685 N", (last - thrust) / ALONE.holding(), 1e-3, why)
 
 
-LOST = IN_CURRENT._replace(force=0.0)
-
-
-def scaled() -> Iterator[Check]:
+def _scaled() -> Iterator[Check]:
     """Added mass slows the waves: the hanging chain with M in place of rho and m + A_h in place of m."""
     for name, body in (("body free", MASS), ("body held", 1e9)):
         scenario = string(1000.0, payload__mass=body, environment__water__current=None, grid__elements=32)
@@ -146,7 +125,7 @@ def scaled() -> Iterator[Check]:
         yield each_close(f"w1, w2, w3, {name}, rad/s", found, frequencies(wet, 3), 1e-4, "four digits")
 
 
-def slowed() -> Iterator[Check]:
+def _slowed() -> Iterator[Check]:
     """Added mass of the cable against none: sqrt(rho/M) where the body is held, less where it swings along."""
 
     def frequencies_with(added: float, mass: float) -> np.ndarray:
@@ -166,22 +145,17 @@ def slowed() -> Iterator[Check]:
 
 CLOSED = "closed form"
 CASES = (
-    *(
-        Case(f"manufactured solution, at sea, l {way}", REFERENCE, "(A0) of docs/theory.md, loads derived by hand",
-             lambda swing=swing: in_space(Problem(swing, sea=LESS_DRAG)))
-        for way, swing in SIZES.items()
-    ),
-    *(
-        Case(f"string in water, sheave at {speed:+g} m/s", "(S - rho v)/(S + rho v), waves of d'Alembert",
-             "constant tension and speed", lambda speed=speed: returned(speed))
-        for speed in (1.0, 20.0, -20.0)
-    ),
-    Case("string in water, tension", CLOSED, "axial balance of what hangs and sinks", tensions),
-    Case("string in water, statics", "q l/w + (F - q W/w)/w ln(1 + w l/W)", "T y_x = F + q (l - x)", statics),
-    Case("string in water, frequencies", BESSEL, CHAIN, scaled),
-    Case("string in water, frequencies by added mass", "sqrt(rho/(rho + rho_a))", "an independent computation", slowed),
+    *each("manufactured solution, at sea, l {}", REFERENCE, "(A0) of docs/theory.md, loads derived by hand",
+          lambda swing: in_space(Problem(swing, sea=LESS_DRAG)), SIZES),
+    *each("string in water, sheave at {:+g} m/s", "(S - rho v)/(S + rho v), waves of d'Alembert",
+          "constant tension and speed", _returned, (1.0, 20.0, -20.0)),
+    Case("string in water, tension", CLOSED, "axial balance of what hangs and sinks", _tensions),
+    Case("string in water, statics", "q l/w + (F - q W/w)/w ln(1 + w l/W)", "T y_x = F + q (l - x)", _statics),
+    Case("string in water, frequencies", BESSEL, CHAIN, _scaled),
+    Case("string in water, frequencies by added mass", "sqrt(rho/(rho + rho_a))", "an independent computation",
+         _slowed),
     Case("string in water, law without a station", "rest where y_x(l) = 0", CLOSED,
-         lambda: station({}, ALONE.offset(), 0.0)),
+         lambda: _station({}, ALONE.offset(), 0.0)),
     Case("string in water, law with a station", "rest at the station", CLOSED,
-         lambda: station({"station_gain": 0.1, "washout_time": 120.0}, 0.0, ALONE.holding())),
+         lambda: _station({"station_gain": 0.1, "washout_time": 120.0}, 0.0, ALONE.holding())),
 )  # fmt: skip

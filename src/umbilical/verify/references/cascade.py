@@ -13,10 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
-from scipy.integrate import solve_ivp
 
-from umbilical.verify.cases import CaseError
-from umbilical.verify.references import paper
+from umbilical.verify.references import integrated, paper
 
 Array = np.ndarray
 
@@ -90,27 +88,19 @@ def solve(force: Callable[[float], float], times: Array, degree: int = 40) -> Hi
     """
     m = matrices(degree)
 
-    def controlled(t: float, state: Array) -> tuple[Array, Array, Array]:
-        """Voltages; the rates of the outer observers; those of filters and of the motors' observers."""
-        q, tail = state[:degree], state[2 * degree :]
-        speed, current, observers, filters, ups = tail[0:2], tail[2:4], tail[4:9], tail[9:15].reshape(3, 2), tail[15:17]
-        length, _, a = paper.winch(t)
-        thrust, observer_rates = paper.outer_law(q[0], q.sum() / length, paper.MASS * (paper.GRAVITY - a), observers)
-        voltage, filter_rates, ups_rate = paper.motor_loops(thrust, speed, current, filters, ups)
-        return voltage, observer_rates, np.concatenate([filter_rates.ravel(), ups_rate])
+    def controlled(t: float, state: Array) -> tuple[Array, list[Array]]:
+        q, (length, _, a) = state[:degree], paper.winch(t)
+        return paper.controlled(q[0], q.sum() / length, paper.MASS * (paper.GRAVITY - a), state[2 * degree :])
 
     def rates(t: float, state: Array) -> Array:
         q, momentum, speed, current = np.split(state, [degree, 2 * degree, 2 * degree + 2, 2 * degree + 4])[:4]
-        voltage, observer_rates, inner_rates = controlled(t, state)
+        voltage, control_rates = controlled(t, state)
         bell = paper.motor_disturbances(t)[0][1] * np.ones(2)
-        speed_rate, current_rate = paper.motor_rates(speed, current, voltage, (bell, 0.2 * bell))
+        motors = paper.motor_rates(speed, current, voltage, (bell, 0.2 * bell))
         delivered = float(paper.THRUST @ (abs(speed) * speed))
         cable = cable_rates(m, t, q, momentum, force(t) + delivered)
-        return np.concatenate([*cable, speed_rate, current_rate, observer_rates, inner_rates])
+        return np.concatenate([*cable, *motors, *control_rates])
 
-    start = np.zeros(2 * degree + 17)
-    done = solve_ivp(rates, (0.0, float(times[-1])), start, "DOP853", t_eval=times, rtol=1e-8, atol=1e-11)
-    if not (done.success and np.isfinite(done.y).all()):
-        raise CaseError(f"the monolithic reference failed: {done.message}")
-    voltages = np.array([controlled(t, state)[0] for t, state in zip(times, done.y.T, strict=True)]).T
-    return Histories(done.y[0], done.y[2 * degree : 2 * degree + 2], voltages)
+    found = integrated(rates, np.zeros(2 * degree + 17), times, method="DOP853", rtol=1e-8, atol=1e-11)
+    voltages = np.array([controlled(t, state)[0] for t, state in zip(times, found.T, strict=True)]).T
+    return Histories(found[0], found[2 * degree : 2 * degree + 2], voltages)

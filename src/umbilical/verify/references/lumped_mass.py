@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.verify.cases import CaseError
+from umbilical.verify.references import CaseError
 from umbilical.verify.references.hanging_string import HangingString
 
 STIFFNESS = 1e8

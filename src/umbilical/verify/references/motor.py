@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
-from umbilical.verify.cases import CaseError
+from umbilical.verify.references import integrated
 
 Motor = Mapping[str, float]
 """Constants of eq. (15) by the names of the scenario."""
@@ -35,10 +34,7 @@ def integrate(motor: Motor, voltage: float, start: tuple[float, float], t: np.nd
         torque = m["torque_constant"] * i - m["viscous_friction"] * w - m["load_coefficient"] * abs(w) * w
         return torque / m["inertia"], (voltage - m["resistance"] * i - m["back_emf_constant"] * w) / m["inductance"]
 
-    done = solve_ivp(rates, (t[0], t[-1]), start, "DOP853", t_eval=t, rtol=1e-12, atol=1e-12, max_step=1e-3)
-    if not (done.success and np.isfinite(done.y).all()):
-        raise CaseError(f"the motor's reference failed: {done.message}")
-    return done.y
+    return integrated(rates, start, t, method="DOP853", rtol=1e-12, atol=1e-12, max_step=1e-3)
 
 
 def linear_step(motor: Motor, speed: float, change: float, t: np.ndarray) -> np.ndarray:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
+
+from umbilical.verify.references import integrated
 
 N = 100  # intervals along the cable
 RHO, MASS, DAMPING, TIP_DAMPING, GRAVITY = 2.0, 500.0, 0.001, 0.001, 10.0
@@ -78,20 +79,31 @@ def motor_rates(
     return (K_T * i - B * w - K_Q * abs(w) * w + torque) / J, (-R * i - K_B * w + voltage + extra) / L
 
 
+def controlled(tip: float, slope: float, tension: float, tail: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+    """Voltages, and the rates of the outer observers, the filters and the motors' observers.
+
+    Args:
+        tip, slope, tension: y(l), m, y_x(l) and T(l), N.
+        tail: speeds, currents, outer observers, filters and motor observers, shape (17,).
+    """
+    thrust, observer_rates = outer_law(tip, slope, tension, tail[4:9])
+    voltage, filter_rates, ups_rate = motor_loops(thrust, tail[0:2], tail[2:4], tail[9:15].reshape(3, 2), tail[15:17])
+    return voltage, [observer_rates, filter_rates.ravel(), ups_rate]
+
+
 def rates(t: float, state: np.ndarray) -> np.ndarray:
     """Time derivative of y and Dy/Dt at nodes 1 to N, motors, observers, filters."""
     length, v, a = winch(t)
     h = length / N
     y, w = np.concatenate([[0.0], state[:N]]), np.concatenate([[0.0], state[N : 2 * N]])
     tail = state[2 * N :]
-    speed, current, observers, filters, ups = tail[0:2], tail[2:4], tail[4:9], tail[9:15].reshape(3, 2), tail[15:17]
+    speed, current = tail[0:2], tail[2:4]
     w[0] = v * (4 * y[1] - y[2]) / (2 * h)
     pull = (MASS + RHO * length * (1 - MIDDLE)) * (GRAVITY - a) * np.diff(y) / h
     slope = (3 * y[N] - 4 * y[N - 1] + y[N - 2]) / (2 * h)
 
-    thrust, observer_rates = outer_law(y[N], slope, MASS * (GRAVITY - a), observers)
-    voltage, filter_rates, ups_rate = motor_loops(thrust, speed, current, filters, ups)
-    speed_rate, current_rate = motor_rates(speed, current, voltage, motor_disturbances(t))
+    voltage, control_rates = controlled(y[N], slope, MASS * (GRAVITY - a), tail)
+    motors = motor_rates(speed, current, voltage, motor_disturbances(t))
 
     y_rate, w_rate = w.copy(), np.empty(N + 1)
     carried = v * (1 - XI[1:N]) / (2 * h)
@@ -101,18 +113,14 @@ def rates(t: float, state: np.ndarray) -> np.ndarray:
     # The last half interval of cable moves with the ROV: second order, and no one-sided difference in the balance.
     load = -pull[-1] - TIP_DAMPING * w[N] - DAMPING * h / 2 * w[N] + force(t) + delivered
     w_rate[N] = load / (MASS + RHO * h / 2)
-    motors = [speed_rate, current_rate, observer_rates, filter_rates.ravel(), ups_rate]
-    return np.concatenate([y_rate[1:], w_rate[1:], *motors])
+    return np.concatenate([y_rate[1:], w_rate[1:], *motors, *control_rates])
 
 
 def displacement(times: np.ndarray) -> np.ndarray:
     """y at increasing instants from 0 and N + 1 nodes from vessel to ROV, m, from a straight cable at rest.
 
     Raises:
-        RuntimeError: scipy gave up, or the state is not finite.
+        CaseError: scipy gave up, or the state is not finite.
     """
-    state = np.zeros(2 * N + 17)
-    found = solve_ivp(rates, (0.0, float(times[-1])), state, t_eval=times, rtol=1e-6, atol=1e-9)
-    if not found.success or not np.isfinite(found.y).all():
-        raise RuntimeError(f"the reference failed: {found.message}")
-    return np.concatenate([np.zeros((1, times.size)), found.y[:N]]).T
+    found = integrated(rates, np.zeros(2 * N + 17), times, rtol=1e-6, atol=1e-9)
+    return np.concatenate([np.zeros((1, times.size)), found[:N]]).T
