@@ -65,6 +65,21 @@ def test_the_step_is_halved_until_it_does_not_matter():
     assert choice.elements == GRIDS[0]
 
 
+@pytest.mark.parametrize(("least", "chosen"), [(17, 24), (24, 24), (25, 32), (3, 4), (5, 6), (200, 128)])
+def test_three_quarters_of_a_grid_do_where_they_do(least, chosen):
+    """Peaks are wrong below ``least`` elements; the finest that is compared with more is 128."""
+    scenario = umbilical.load("crosscheck-none", SHORT | {"grid.elements": "auto"})
+
+    def known(fixed):
+        error = 0.0 if fixed.grid.elements >= least else 1.0 / fixed.grid.elements
+        return SimpleNamespace(status=umbilical.Status.COMPLETED, metrics={"tip_peak": 1.0 + error, "mid_peak": 0.0})
+
+    choice = choose_grid(scenario, known)
+    assert choice.elements == chosen
+    assert choice.reached == (chosen >= least)
+    assert choice.finest >= 4 * chosen
+
+
 def test_runs_that_end_otherwise_are_apart():
     assert difference({"COMPLETED tip_peak": 1.0}, {"DIVERGED tip_peak": 1.0}) == float("inf")
     assert difference({"tip_peak": 1e-12}, {"tip_peak": 2e-12}) == 0.0
@@ -76,7 +91,7 @@ def test_a_study_takes_one_grid_for_all_its_members():
     )
     found = umbilical.sweep(study).study
     assert found.scenario.grid.tolerance is None
-    assert found.changes["grid.elements"] in GRIDS
+    assert found.changes["grid.elements"] in {*GRIDS, *(3 * elements // 4 for elements in GRIDS)}
     assert "grid.tolerance" not in found.changes
 
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import glue, kernel
+from umbilical.compile import glue, kernel, row_kernel
 from umbilical.control.contract import Decision, MotorDecision, OuterDecision
 from umbilical.engine.sensing import true_slope_rate
 from umbilical.engine.stepping import PlantState
@@ -179,7 +179,7 @@ def _along_cable(
     return {"displacement": displacement, "slope": slope, "velocity": velocity}
 
 
-@kernel
+@row_kernel
 def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
     """Keep the largest slopes; False if one is beyond :data:`STEEPEST` or not a number."""
     x = state.blocks[PRESENT]

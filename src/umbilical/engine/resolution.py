@@ -1,9 +1,9 @@
 """A grid that is fine enough for a scenario, found by runs.
 
 The peaks at the ROV and at the midpoint on a grid are compared with those on twice and on four times its elements, and
-with those on half its step; the least grid whose differences stay within the tolerance is taken. Where a front runs
-through the cable (a load that jumps, a fault) peaks converge at first order only, and no grid that is tried may do: the
-finest that was compared is taken then, with what its error is.
+with those on half its step; the least grid whose differences stay within the tolerance is taken, or three quarters of
+its elements where they do as well. Where a front runs through the cable (a load that jumps, a fault) peaks converge at
+first order only, and no grid that is tried may do: the finest that was compared is taken then, with what its error is.
 """
 
 from __future__ import annotations
@@ -32,12 +32,14 @@ class Choice(NamedTuple):
     Attributes:
         elements: along the cable.
         step: of the plant, s.
-        estimate: largest relative difference of a peak from four times the elements, or from half the step.
+        finest: the most elements that were compared with, at least four times those chosen.
+        estimate: largest relative difference of a peak from finer grids, of twice the elements and more.
         tolerance: what was asked.
     """
 
     elements: int
     step: float
+    finest: int
     estimate: float
     tolerance: float
 
@@ -50,12 +52,12 @@ class Choice(NamedTuple):
         kept = "" if self.reached else f", which misses the tolerance of {self.tolerance:g}"
         return (
             f"grid: {self.elements} elements and a step of {self.step:g} s were chosen; the peaks at ROV and midpoint "
-            f"are within {self.estimate:.1e} of those on {4 * self.elements} elements{kept}"
+            f"are within {self.estimate:.1e} of those on {self.finest} elements{kept}"
         )
 
 
 def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float], None] | None = None) -> Choice:
-    """The least grid of :data:`GRIDS` on which the peaks are right within ``grid.tolerance``.
+    """The least grid of :data:`GRIDS`, or three quarters of it, on which the peaks are right within ``grid.tolerance``.
 
     Args:
         scenario: one with a tolerance.
@@ -69,6 +71,12 @@ def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float]
     assert tolerance is not None
     step = _fine_step(scenario, measure, 0.25 * tolerance)
     found: dict[int, Peaks] = {}
+
+    def judged(elements: int, finer: tuple[int, ...]) -> Choice:
+        peaks = found[elements] if elements in found else _peaks(scenario, measure, elements, step)
+        error = max(difference(peaks, found[more]) for more in finer)
+        return Choice(elements, _taken(scenario, elements, step), finer[-1], error, tolerance)
+
     choice = None
     for count, elements in enumerate(GRIDS):
         try:
@@ -81,11 +89,11 @@ def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float]
             progress((count + 1) / len(GRIDS))
         if count < 2:
             continue
-        coarse = GRIDS[count - 2]
-        error = max(difference(found[coarse], found[finer]) for finer in GRIDS[count - 1 : count + 1])
-        choice = Choice(coarse, _taken(scenario, coarse, step), error, tolerance)
+        finer = GRIDS[count - 1 : count + 1]
+        choice = judged(GRIDS[count - 2], finer)
         if choice.reached:
-            break
+            fewer = judged(3 * choice.elements // 4, finer) if count > 2 else choice
+            return fewer if fewer.reached else choice
     assert choice is not None
     return choice
 

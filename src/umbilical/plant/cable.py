@@ -327,7 +327,7 @@ def add_up_displacement(x: np.ndarray, starts: np.ndarray, vessel: float) -> Non
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     gains = starts[1:]
     for e in range(n):
-        gains[e] = half * (W0 * (x0[e] + x4[e]) + W1 * (x1[e] + x3[e]) + W2 * x2[e])
+        gains[e] = half * fma(W0, x0[e] + x4[e], fma(W1, x1[e] + x3[e], W2 * x2[e]))
     total = vessel
     starts[0] = total
     for e in range(n):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import fma, kernel, row_kernel
 from umbilical.plant.elements import W0, W1, W2
 from umbilical.plant.forces.force import Decay, Force, OperatingPoint
 from umbilical.relations.water import line_inertia
@@ -27,7 +27,7 @@ def add_sliding(x: np.ndarray, rate: np.ndarray, factor: float) -> None:
             rate[j, n + e] += factor * x[j, e]
 
 
-@kernel
+@row_kernel
 def book(
     damping: float, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, slip: float
 ) -> None:
@@ -37,10 +37,10 @@ def book(
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     w0, w1, w2, w3, w4 = x[0, n:], x[1, n:], x[2, n:], x[3, n:], x[4, n:]
     for e in range(n):
-        ends = w0[e] * (w0[e] + sliding * x0[e]) + w4[e] * (w4[e] + sliding * x4[e])
-        inner = w1[e] * (w1[e] + sliding * x1[e]) + w3[e] * (w3[e] + sliding * x3[e])
-        new = scale * (W0 * ends + W1 * inner + W2 * (w2[e] * (w2[e] + sliding * x2[e])))
-        work[e] += half * (power[e] + new)
+        ends = fma(w0[e], fma(sliding, x0[e], w0[e]), w4[e] * fma(sliding, x4[e], w4[e]))
+        inner = fma(w1[e], fma(sliding, x1[e], w1[e]), w3[e] * fma(sliding, x3[e], w3[e]))
+        new = scale * fma(W0, ends, fma(W1, inner, W2 * (w2[e] * fma(sliding, x2[e], w2[e]))))
+        work[e] = fma(half, power[e] + new, work[e])
         power[e] = new
 
 

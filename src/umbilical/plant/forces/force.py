@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import kernel
+from umbilical.compile import row_kernel
 from umbilical.plant import orbital
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding
@@ -73,7 +73,7 @@ class Force(NamedTuple):
     checks: tuple[Callable[..., Iterator[Finding]], ...] = ()
 
 
-@kernel
+@row_kernel
 def add_power(work: np.ndarray, power: np.ndarray, time: float) -> None:
     """work += power * time, along a row."""
     for k in range(work.size):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.compile import glue, kernel
+from umbilical.compile import fma, glue, row_kernel
 from umbilical.plant.cable import Cable, Moment
 from umbilical.plant.elements import W0, W1, W2
 from umbilical.plant.exogenous import Exogenous
@@ -16,7 +16,7 @@ from umbilical.plant.forces.force import Force
 from umbilical.relations.tension import inertial_tension, sliding_rates
 
 
-@kernel
+@row_kernel
 def book(
     above: np.ndarray, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, factor: float,
     foot: float, rise: float,
@@ -31,10 +31,10 @@ def book(
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
     a0, a1, a2, a3, a4 = above[0], above[1], above[2], above[3], above[4]
     for e in range(n):
-        ends = (foot + rise * a0[e]) * x0[e] * x0[e] + (foot + rise * a4[e]) * x4[e] * x4[e]
-        inner = (foot + rise * a1[e]) * x1[e] * x1[e] + (foot + rise * a3[e]) * x3[e] * x3[e]
-        new = scale * (W0 * ends + W1 * inner + W2 * ((foot + rise * a2[e]) * x2[e] * x2[e]))
-        work[e] += half * (power[e] + new)
+        ends = fma(fma(rise, a0[e], foot) * x0[e], x0[e], fma(rise, a4[e], foot) * x4[e] * x4[e])
+        inner = fma(fma(rise, a1[e], foot) * x1[e], x1[e], fma(rise, a3[e], foot) * x3[e] * x3[e])
+        new = scale * fma(W0, ends, fma(W1, inner, W2 * (fma(rise, a2[e], foot) * x2[e] * x2[e])))
+        work[e] = fma(half, power[e] + new, work[e])
         power[e] = new
 
 
