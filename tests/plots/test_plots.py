@@ -15,8 +15,8 @@ from matplotlib.text import Annotation
 from umbilical import Run, load, plots, simulate
 from umbilical.cli.plot import Kind
 from umbilical.errors import OutputError
+from umbilical.plots.channels import ESTIMATES
 from umbilical.plots.figure import at_sigma, draw
-from umbilical.plots.observers import ESTIMATES
 
 SINGLE = {
     "tip": plots.plot_tip,

@@ -11,29 +11,27 @@ opens a window, changes a global setting, or keeps a figure alive.
 
 from umbilical.plots.cable import plot_cable, plot_positions
 from umbilical.plots.certificate import plot_certificate
+from umbilical.plots.channels import (
+    plot_all_motors,
+    plot_all_observers,
+    plot_energy,
+    plot_motors,
+    plot_observers,
+    plot_overview,
+    plot_tip,
+    plot_winch,
+)  # fmt: skip
 from umbilical.plots.convergence import plot_convergence
 from umbilical.plots.design import plot_design
-from umbilical.plots.energy import plot_energy
 from umbilical.plots.figure import as_figure, save_figure
 from umbilical.plots.margins import plot_margins
-from umbilical.plots.motors import plot_motors
-from umbilical.plots.observers import plot_observers
 from umbilical.plots.operability import plot_lowering, plot_operability
-from umbilical.plots.overview import plot_all_motors, plot_all_observers, plot_overview
 from umbilical.plots.rope import plot_shape, plot_tension, plot_tensions, plot_watch
 from umbilical.plots.snap import plot_snaps
-from umbilical.plots.study import (
-    STUDY_PLOTS,
-    plot_comparison,
-    plot_distribution,
-    plot_sensitivity,
-    plot_study,
-)
+from umbilical.plots.study import STUDY_PLOTS, plot_comparison, plot_distribution, plot_sensitivity, plot_study
 from umbilical.plots.study_map import plot_map
-from umbilical.plots.tip import plot_tip
 from umbilical.plots.tuning import plot_tuning
 from umbilical.plots.weather import plot_weather
-from umbilical.plots.winch import plot_winch
 
 PLOTS = {
     "overview": plot_overview,
@@ -51,37 +49,9 @@ ROPE_PLOTS = {"shape": plot_shape, "tension": plot_tension, "snaps": plot_tensio
 """Likewise what only a run of the rope has."""
 
 __all__ = [
-    "PLOTS",
-    "ROPE_PLOTS",
-    "STUDY_PLOTS",
-    "as_figure",
-    "plot_all_motors",
-    "plot_all_observers",
-    "plot_cable",
-    "plot_certificate",
-    "plot_comparison",
-    "plot_convergence",
-    "plot_design",
-    "plot_distribution",
-    "plot_energy",
-    "plot_lowering",
-    "plot_map",
-    "plot_margins",
-    "plot_motors",
-    "plot_observers",
-    "plot_operability",
-    "plot_overview",
-    "plot_positions",
-    "plot_sensitivity",
-    "plot_shape",
-    "plot_snaps",
-    "plot_study",
-    "plot_tension",
-    "plot_tensions",
-    "plot_tip",
-    "plot_tuning",
-    "plot_watch",
-    "plot_weather",
-    "plot_winch",
-    "save_figure",
-]
+    "PLOTS", "ROPE_PLOTS", "STUDY_PLOTS", "as_figure", "plot_all_motors", "plot_all_observers", "plot_cable",
+    "plot_certificate", "plot_comparison", "plot_convergence", "plot_design", "plot_distribution", "plot_energy",
+    "plot_lowering", "plot_map", "plot_margins", "plot_motors", "plot_observers", "plot_operability", "plot_overview",
+    "plot_positions", "plot_sensitivity", "plot_shape", "plot_snaps", "plot_study", "plot_tension", "plot_tensions",
+    "plot_tip", "plot_tuning", "plot_watch", "plot_weather", "plot_winch", "save_figure",
+]  # fmt: skip

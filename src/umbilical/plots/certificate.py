@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umbilical.certificate import bound, cable_bound
-from umbilical.plots.figure import COLOURS, ONE_ROW, QUIET, new_figure
+from umbilical.plots.figure import ABOVE, COLOURS, ONE_ROW, QUIET, dress, new_figure
 from umbilical.quantities import CERTIFICATE
 
 if TYPE_CHECKING:
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from umbilical.certificate import Certificate
     from umbilical.studies.audit import Audit
 
+LEGEND = ABOVE | {"ncols": ONE_ROW}
 SAMPLES = 801
 DECADES = 8
 """Powers of ten that are drawn of V at most, from its largest value down."""
@@ -54,15 +55,14 @@ def draw_lyapunov(ax: Axes, certificate: Certificate, audit: Audit | None) -> No
     """The bounds of V and of V1 + V2 from the start of the ideal run, or of the scenario; V of both runs."""
     if np.isfinite(certificate.rates).all():
         t = audit.time if audit else np.linspace(0.0, float(certificate.edges[-1]), SAMPLES)
-        of_v, of_cable = (
-            (audit.bound, audit.cable_bound) if audit else (bound(certificate, t), cable_bound(certificate, t))
-        )
+        of_v = audit.bound if audit else bound(certificate, t)
+        of_cable = audit.cable_bound if audit else cable_bound(certificate, t)
         ax.plot(t, of_v, color=COLOURS[6], linewidth=1.4, label="bound of V")
         ax.plot(t, of_cable, color=COLOURS[6], linewidth=1.2, linestyle=":", label="bound of V1 + V2")
     if audit:
         _draw_runs(ax, audit)
     _fit(ax)
-    _finish(ax, CERTIFICATE["lyapunov"].meaning, "$V$ [J]")
+    dress(ax, CERTIFICATE["lyapunov"].meaning, LEGEND, ylabel="$V$ [J]").margins(x=EDGE)
 
 
 def _draw_runs(ax: Axes, audit: Audit) -> None:
@@ -70,15 +70,8 @@ def _draw_runs(ax: Axes, audit: Audit) -> None:
     start = {"marker": "o", "markevery": [0], "markersize": 5.0}
     ax.plot(audit.real_time, audit.real, color=COLOURS[1], linewidth=1.2, label="V, the run as it is", **start)
     ax.plot(audit.time, audit.ideal, color=COLOURS[0], linewidth=1.2, linestyle="--", label="V, ideal loop")
-    ax.plot(
-        audit.time,
-        audit.cable,
-        color=COLOURS[2],
-        linewidth=1.0,
-        linestyle="-.",
-        label="V1 + V2, ideal loop",
-        zorder=1.5,
-    )
+    lower = {"color": COLOURS[2], "linewidth": 1.0, "linestyle": "-.", "zorder": 1.5}
+    ax.plot(audit.time, audit.cable, label="V1 + V2, ideal loop", **lower)
 
 
 def _fit(ax: Axes) -> None:
@@ -94,18 +87,12 @@ def _fit(ax: Axes) -> None:
 
 def draw_rates(ax: Axes, certificate: Certificate) -> None:
     """The proved rate of each slab, beside the rates with the winch stopped."""
-    ax.stairs(
-        certificate.rates,
-        certificate.edges,
-        baseline=None,
-        color=COLOURS[0],
-        linewidth=1.4,
-        label="proved, winch as it runs",
-    )
+    proved = {"baseline": None, "color": COLOURS[0], "linewidth": 1.4, "label": "proved, winch as it runs"}
+    ax.stairs(certificate.rates, certificate.edges, **proved)
     ax.axhline(certificate.fixed_length_rate, color=COLOURS[2], linewidth=1.2, linestyle="--", label="winch stopped")
     ax.axhline(certificate.exact_rate, color=COLOURS[1], linewidth=1.2, linestyle=":", label="exact, winch stopped")
     ax.axhline(0.0, color=QUIET, linewidth=0.8)
-    _finish(ax, "rate of decay of V", r"$\vartheta$ [1/s]")
+    dress(ax, "rate of decay of V", LEGEND, ylabel=r"$\vartheta$ [1/s]").margins(x=EDGE)
 
 
 def draw_margins(ax: Axes, certificate: Certificate) -> None:
@@ -114,16 +101,4 @@ def draw_margins(ax: Axes, certificate: Certificate) -> None:
         colour, dashes = COLOURS[number % len(COLOURS)], ("-", "--", ":")[number // 3 % 3]
         ax.stairs(margin, certificate.edges, baseline=None, color=colour, linestyle=dashes, linewidth=1.3, label=name)
     ax.axhline(0.0, color=QUIET, linewidth=0.8)
-    _finish(ax, "margin over the larger side: below 0 a condition fails", "margin")
-
-
-def _finish(ax: Axes, title: str, label: str) -> None:
-    ax.set_title(title, fontsize=9.5, loc="left")
-    ax.set_ylabel(label)
-    ax.margins(x=EDGE)
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    if ax.get_legend_handles_labels()[0]:
-        ax.legend(
-            fontsize=8, ncols=ONE_ROW, frameon=False, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2
-        )
+    dress(ax, "margin over the larger side: below 0 a condition fails", LEGEND, ylabel="margin").margins(x=EDGE)

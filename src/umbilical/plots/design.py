@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, at_sigma, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, at_sigma, dress, new_figure
 from umbilical.stability.sampled import loop_response
 from umbilical.synthesis.score import changes as demanded
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umbilical.synthesis.design import Design
+    from umbilical.synthesis.iterate import Side
 
 
 LEAST_TAKEN = 1e-4
@@ -31,17 +32,15 @@ def plot_design(design: Design) -> Figure:
     """
     figure = new_figure(11.0, 10.5)
     panels = figure.subplots(3, 2)
-    plot_followed(design, panels[0, 0])
-    plot_reflections(design, panels[0, 1])
-    plot_rejection(design, panels[1, 0])
-    plot_trips(design, panels[1, 1])
-    plot_motion(design, panels[2, 0], 0.5, "midpoint")
-    plot_motion(design, panels[2, 1], 1.0, "ROV")
+    for ax, draw in zip(panels.flat, (_draw_followed, _draw_reflections, _draw_rejection, _draw_trips), strict=False):
+        draw(design, ax)
+    _draw_motion(design, panels[2, 0], 0.5, "midpoint")
+    _draw_motion(design, panels[2, 1], 1.0, "ROV")
     figure.suptitle(f"{design.before.scenario.name}: designed for {design.objective}", fontsize=12)
     return figure
 
 
-def plot_followed(design: Design, ax: Axes) -> None:
+def _draw_followed(design: Design, ax: Axes) -> None:
     """Decay of the first modes over beta; thick where the demanded margins are there."""
     trip = design.after.report.judgements[0].sweep.cable.round_trip
     speed = design.after.report.judgements[0].sweep.cable.tip_wave_speed
@@ -53,32 +52,30 @@ def plot_followed(design: Design, ax: Axes) -> None:
     ax.loglog(design.betas, inside, color=COLOURS[0], linewidth=3.0, label="with all margins")
     law = design.after.scenario.control.law
     ax.axvline(getattr(law, "slope_gain", np.nan), color=QUIET, linestyle=":", linewidth=1.0)
-    _finish(ax, "slowest of the first modes: decay over beta", "beta [m/s]", "decay [1/s]")
+    dress(ax, "slowest of the first modes: decay over beta", xlabel="beta [m/s]", ylabel="decay [1/s]")
 
 
-def plot_reflections(design: Design, ax: Axes) -> None:
+def _draw_reflections(design: Design, ax: Axes) -> None:
     """|R| over frequency."""
-    for number, side in enumerate((design.before, design.after)):
+    for side, style in _sides(design):
         j = side.report.judgements[0]
-        ax.semilogx(j.frequency, j.reflection, color=COLOURS[1 - number], label=("before", "after")[number])
+        ax.semilogx(j.frequency, j.reflection, **style)
     sweep = design.after.report.judgements[0].sweep
     ax.semilogx(sweep.coarse, 1.0 / sweep.loudest, color=QUIET, linestyle=":", label="what the cable takes")
-    ax.set_xlim(1e-2, None)
-    _finish(ax, "reflection of the ROV |R|", "frequency [rad/s]", "")
+    dress(ax, "reflection of the ROV |R|", xlabel="frequency [rad/s]", xlim=(1e-2, None))
 
 
-def plot_rejection(design: Design, ax: Axes) -> None:
+def _draw_rejection(design: Design, ax: Axes) -> None:
     """Displacement of the ROV per force on it: the disturbance that gets through."""
-    for number, side in enumerate((design.before, design.after)):
+    for side, style in _sides(design):
         j = side.report.judgements[0]
         response = loop_response(j.sweep.cable, j.sweep.loop, 1j * j.frequency)
-        label = ("before", "after")[number]
-        ax.loglog(j.frequency, response.compliance(), color=COLOURS[1 - number], linewidth=1.2, label=label)
-    ax.set_xlim(1e-2, None)
-    _finish(ax, "ROV per force on it, the cable without an end", "frequency [rad/s]", "displacement per force [m/N]")
+        ax.loglog(j.frequency, response.compliance(), linewidth=1.2, **style)
+    labels: dict[str, Any] = {"xlabel": "frequency [rad/s]", "ylabel": "displacement per force [m/N]"}
+    dress(ax, "ROV per force on it, the cable without an end", xlim=(1e-2, None), **labels)
 
 
-def plot_trips(design: Design, ax: Axes) -> None:
+def _draw_trips(design: Design, ax: Axes) -> None:
     """What a round trip takes off a wave under each change that the new loop shall survive: above 0, or it grows."""
     sweep = design.after.report.judgements[0].sweep
     changes = demanded(design.after.demands, design.after.scenario.control.period)
@@ -87,22 +84,21 @@ def plot_trips(design: Design, ax: Axes) -> None:
         label = name if size.max() < 1.0 else f"{name}: grows where there is no line"
         style = {"color": COLOURS[number % SOLID], "linestyle": ("-", (0, (5, 2)))[number // SOLID % 2]}
         ax.loglog(sweep.coarse, np.where(size < 1.0, 1.0 - size, np.nan), linewidth=1.2, label=label, **style)
-    ax.set(xlim=(1.0, None), ylim=(LEAST_TAKEN, 1.0))
-    _finish(ax, "what a round trip takes, under what shall be survived", "frequency [rad/s]", "1 - |echo R|")
+    ax.set(xlabel="frequency [rad/s]", ylabel="1 - |echo R|", xlim=(1.0, None), ylim=(LEAST_TAKEN, 1.0))
+    dress(ax, "what a round trip takes, under what shall be survived")
 
 
-def plot_motion(design: Design, ax: Axes, sigma: float, name: str) -> None:
+def _draw_motion(design: Design, ax: Axes, sigma: float, name: str) -> None:
     """Displacement over time."""
-    for number, side in enumerate((design.before, design.after)):
+    for side, style in _sides(design):
         y = at_sigma(side.trial.run, sigma)
-        label = ("before", "after")[number]
-        ax.plot(y["time"].values, y.values, color=COLOURS[1 - number], linewidth=1.4, label=label)
-    _finish(ax, f"displacement of the {name}", "time [s]", "y [m]")
+        ax.plot(y["time"].values, y.values, linewidth=1.4, **style)
+    dress(ax, f"displacement of the {name}", xlabel="time [s]", ylabel="y [m]")
 
 
-def _finish(ax: Axes, title: str, xlabel: str, ylabel: str) -> None:
-    ax.set_title(title, fontsize=9.5, loc="left")
-    ax.set(xlabel=xlabel, ylabel=ylabel)
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(fontsize=8, frameon=False)
+def _sides(design: Design) -> list[tuple[Side, dict[str, Any]]]:
+    """Both sides with the look of their curves."""
+    return [
+        (design.before, {"color": COLOURS[1], "label": "before"}),
+        (design.after, {"color": COLOURS[0], "label": "after"}),
+    ]

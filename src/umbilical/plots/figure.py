@@ -35,6 +35,8 @@ PLAIN_POWERS = (-4, 5)
 """Powers of ten between which ticks are written out."""
 CLOCKS: dict[str, dict[str, None]] = {"png": {"Software": None}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 """Kinds of picture, and what each must not say about when and with what it was made."""
+ABOVE: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+"""Where a legend stands above the axes, on the right."""
 ONE_ROW = 4
 """Names in one row of a legend; it stands above the axes, where no curve is."""
 
@@ -154,21 +156,29 @@ def note(ax: Axes, text: str) -> None:
         ax.text(0.01, 0.02, text, transform=ax.transAxes, fontsize=8, color="#404040", bbox=_PAPER)
 
 
-def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
-    """Title, labels, grid, legend where something is named, and the marks of events."""
-    mark_events(ax, run)
+def dress(ax: Axes, title: str = "", legend: dict[str, Any] | None = None, **labels: Any) -> Axes:
+    """Title, grid, no frame above and on the right, and a legend where something is named.
+
+    ``labels`` are properties of the axes, as ``Axes.set`` takes them; ``legend`` changes the legend.
+    """
     ax.set_title(title, fontsize=9.5, loc="left")
-    ax.set_xlabel(f"{run['time'].attrs['long_name']} [{run['time'].attrs['units']}]")
-    ax.set_ylabel(ylabel)
-    ax.ticklabel_format(axis="y", style="sci", scilimits=PLAIN_POWERS, useMathText=True)
-    ax.margins(x=0.0)
+    ax.set(**labels)
     ax.grid(alpha=0.25, linewidth=0.6)
     ax.spines[["top", "right"]].set_visible(False)
-    if names := ax.get_legend_handles_labels()[1]:
-        columns = len(names) if len(names) <= ONE_ROW else -(-len(names) // 2)
-        place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderpad": 0.1, "borderaxespad": 0.2}
-        ax.legend(fontsize=8, ncols=columns, frameon=False, columnspacing=1.0, handlelength=1.5, **place)
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(**{"fontsize": 8, "frameon": False} | (legend or {}))
     return ax
+
+
+def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
+    """Axes over the time of a run, dressed, with the marks of events."""
+    mark_events(ax, run)
+    ax.ticklabel_format(axis="y", style="sci", scilimits=PLAIN_POWERS, useMathText=True)
+    ax.margins(x=0.0)
+    names = len(ax.get_legend_handles_labels()[1])
+    legend = ABOVE | {"ncols": names if names <= ONE_ROW else -(-names // 2), "borderpad": 0.1, "columnspacing": 1.0}
+    xlabel = f"{run['time'].attrs['long_name']} [{run['time'].attrs['units']}]"
+    return dress(ax, title, legend | {"handlelength": 1.5}, xlabel=xlabel, ylabel=ylabel)
 
 
 def mark_events(ax: Axes, run: Run) -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.patches import Circle
 
-from umbilical.plots.figure import COLOURS, QUIET, as_figure, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, as_figure, dress, new_figure
 from umbilical.stability.sampled import loop_response
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from umbilical.stability.judgement import Judgement
     from umbilical.stability.margins import MarginReport
 
+FREQUENCY = "frequency [rad/s]"
 LOWEST = 1e-2
 """rad/s; nothing happens below."""
 SHOWN_LOOP = 3.0
@@ -44,32 +45,30 @@ def plot_margins(report: MarginReport) -> Figure:
     """
     figure = new_figure(11.0, 8.0)
     places = figure.subplots(2, 2)
-    plot_reflection(report, ax=places[0, 0])
-    plot_nyquist(report, ax=places[0, 1])
-    plot_bode(report, (places[1, 0], places[1, 1]))
+    _draw_reflection(report, ax=places[0, 0])
+    _draw_nyquist(report, ax=places[0, 1])
+    _draw_bode(report, (places[1, 0], places[1, 1]))
     state = "stable" if report.stable else "not stable"
     figure.suptitle(f"{report.scenario.name}: {state}, motors at {report.operating_thrust:.4g} N", fontsize=12)
     return figure
 
 
-def plot_reflection(report: MarginReport, *, ax: Axes) -> Axes:
+def _draw_reflection(report: MarginReport, *, ax: Axes) -> None:
     """|R| of the controlled ROV; above 1/|echo| it feeds the waves more than the cable takes."""
     for number, j in enumerate(report.judgements):
         ax.semilogx(j.frequency, j.reflection, color=COLOURS[number], linewidth=1.4, label=f"{j.length:g} m")
     shortest = min(report.judgements, key=lambda j: j.length)
-    ax.semilogx(
-        shortest.sweep.coarse, 1.0 / shortest.sweep.loudest, color=QUIET, linestyle=":", label="what the cable takes"
-    )
+    taken = 1.0 / shortest.sweep.loudest
+    ax.semilogx(shortest.sweep.coarse, taken, color=QUIET, linestyle=":", label="what the cable takes")
     gains = report.scenario.control.law.boundary_gains
     if gains and not report.controller:
         speed = shortest.sweep.cable.tip_wave_speed
         ideal = abs(speed - gains[1]) / (speed + gains[1])
         ax.axhline(ideal, color=QUIET, linestyle="--", linewidth=1.0, label="ideal law")
-    ax.set_xlim(LOWEST, None)
-    return _finish(ax, "reflection of the ROV |R|", "")
+    dress(ax, "reflection of the ROV |R|", xlabel=FREQUENCY, xlim=(LOWEST, None))
 
 
-def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
+def _draw_nyquist(report: MarginReport, *, ax: Axes) -> None:
     """L in the complex plane near 1, where the closed loop has a pole on the unit circle, at the length where it comes
     closest: a circle for each frequency, since the echo has any phase, and an arrow where the circles are nearest to 1.
     """
@@ -84,8 +83,9 @@ def plot_nyquist(report: MarginReport, *, ax: Axes) -> Axes:
     ax.plot(np.real(circle), np.imag(circle), color=QUIET, linestyle=":", linewidth=1.0)
     ax.plot([1.0], [0.0], "+", color="black", markersize=10)
     _point_at_closest(ax, closest)
-    ax.set(xlim=(-SHOWN_LOOP, SHOWN_LOOP), ylim=(-SHOWN_LOOP, SHOWN_LOOP), aspect="equal")
-    return _finish(ax, f"L near 1 at {closest.length:g} m, echo in any phase", "imaginary part", "real part")
+    shown: dict[str, Any] = {"xlim": (-SHOWN_LOOP, SHOWN_LOOP), "ylim": (-SHOWN_LOOP, SHOWN_LOOP), "aspect": "equal"}
+    title = f"L near 1 at {closest.length:g} m, echo in any phase"
+    dress(ax, title, xlabel="real part", ylabel="imaginary part", **shown)
 
 
 def _point_at_closest(ax: Axes, j: Judgement) -> None:
@@ -107,7 +107,7 @@ def _distances(j: Judgement) -> np.ndarray:
     return np.abs(np.abs(centre - 1.0) - radius)
 
 
-def plot_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
+def _draw_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
     """Size and angle of L: bands for the echo in any phase, lines for the first modes and where margins are used up."""
     size, angle = axes
     for number, j in enumerate(report.judgements):
@@ -121,18 +121,16 @@ def plot_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
         beside += np.angle(curve * np.exp(-1j * beside))
         size.fill_between(j.sweep.coarse, low, high, color=colour, alpha=0.2, linewidth=0)
         size.loglog(w, np.abs(curve), color=colour, linewidth=0.7)
-        angle.fill_between(
-            j.sweep.coarse, np.degrees(middle - aside), np.degrees(middle + aside), color=colour, alpha=0.2, linewidth=0
-        )
+        low, high = np.degrees(middle - aside), np.degrees(middle + aside)
+        angle.fill_between(j.sweep.coarse, low, high, color=colour, alpha=0.2, linewidth=0)
         angle.semilogx(w, np.degrees(beside), ".", color=colour, markersize=0.8)
         for limit in (j.margins.phase, j.margins.delay) if j.margins else ():
             if np.isfinite(limit.frequency):
                 size.axvline(limit.frequency, color=colour, linestyle=":", linewidth=0.9)
     size.axhline(1.0, color=QUIET, linestyle=":", linewidth=1.0)
-    for ax in axes:
-        ax.set_xlim(LOWEST, None)
-    _finish(size, "size of L, band: echo in any phase; lines: phase and delay used up", "|L|")
-    _finish(angle, "angle of L, band: echo in any phase", "degrees")
+    labels: dict[str, Any] = {"xlabel": FREQUENCY, "xlim": (LOWEST, None)}
+    dress(size, "size of L, band: echo in any phase; lines: phase and delay used up", ylabel="|L|", **labels)
+    dress(angle, "angle of L, band: echo in any phase", ylabel="degrees", **labels)
 
 
 def _first_modes(j: Judgement) -> tuple[np.ndarray, np.ndarray]:
@@ -156,13 +154,3 @@ def _circles(j: Judgement) -> Iterator[tuple[float, complex, float]]:
     chosen = np.unique(np.geomspace(_first_mode(j) + 1, centre.size, CIRCLES).astype(int)) - 1
     for k in sorted({*chosen[radius[chosen] < STRAIGHT], int(_distances(j).argmin())}):
         yield float(j.sweep.coarse[k]), complex(centre[k]), float(radius[k])
-
-
-def _finish(ax: Axes, title: str, ylabel: str, xlabel: str = "frequency [rad/s]") -> Axes:
-    ax.set_title(title, fontsize=9.5, loc="left")
-    ax.set(xlabel=xlabel, ylabel=ylabel)
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    if ax.get_legend_handles_labels()[1]:
-        ax.legend(fontsize=8, frameon=False)
-    return ax

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, as_figure, dress, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from umbilical.screening.lower import Lowering
     from umbilical.screening.operate import Operability
 
+BELOW: dict[str, Any] = {"ncols": 4, "loc": "upper center", "bbox_to_anchor": (0.5, -0.14)}
 LEVELS = np.array([0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0])
 """Limiting Hs at which contours are drawn, m."""
 
@@ -36,10 +37,7 @@ def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | 
     ...                           depth=depth, period=period, heading=np.radians([135.0]))
     >>> umbilical.plot_operability(found).get_figure().savefig("limits.png")
     """
-    figure = None
-    if ax is None:
-        figure = new_figure(8.0, 5.0)
-        ax = figure.add_subplot()
+    given, ax = ax, ax or new_figure(8.0, 5.0).add_subplot()
     worst = found.limit.min(axis=2)
     if min(worst.shape) > 1:
         _map(found, worst, ax)
@@ -47,21 +45,19 @@ def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | 
         _lines(found, ax)
     criteria = ", ".join(str(criterion) for criterion in found.criteria)
     ax.set_title(f"{found.operation.name}: largest Hs that keeps {criteria}", fontsize=9.5, loc="left")
-    return ax if figure is None else figure
+    return given or as_figure(ax)
 
 
 def _map(found: Operability, worst: np.ndarray, ax: Axes) -> None:
-    drawn = ax.pcolormesh(
-        found.period, found.depth, worst, cmap="YlGnBu_r", vmin=0.0, vmax=LEVELS[-1], shading="gouraud"
-    )
+    style = {"cmap": "YlGnBu_r", "vmin": 0.0, "vmax": LEVELS[-1], "shading": "gouraud"}
+    drawn = ax.pcolormesh(found.period, found.depth, worst, **style)
     lines = ax.contour(found.period, found.depth, worst, LEVELS, colors="black", linewidths=0.8)
     ax.clabel(lines, fmt="%g m", fontsize=8)
     ax.plot(found.axial_period, found.depth, color=COLOURS[1], linewidth=1.8, label="Tp equals the axial period T1")
-    ax.set(xlabel="peak period Tp [s]", ylabel="cable paid out [m]")
-    ax.set_xlim(found.period.min(), found.period.max())
-    ax.set_ylim(found.depth.max(), found.depth.min())
-    ax.get_figure(root=True).colorbar(drawn, ax=ax, label="limiting Hs, worst heading [m]", extend="max")  # type: ignore[union-attr]
-    _legend_below(ax)
+    ax.set(xlabel="peak period Tp [s]", xlim=(found.period.min(), found.period.max()))
+    ax.set(ylabel="cable paid out [m]", ylim=(found.depth.max(), found.depth.min()))
+    as_figure(ax).colorbar(drawn, ax=ax, label="limiting Hs, worst heading [m]", extend="max")
+    ax.legend(fontsize=8, frameon=False, **BELOW)
 
 
 def _lines(found: Operability, ax: Axes) -> None:
@@ -76,10 +72,7 @@ def _lines(found: Operability, ax: Axes) -> None:
         )  # fmt: skip
     fixed = f"Tp {found.period[0]:g} s" if deep else f"{found.depth[0]:g} m"
     ax.set(xlabel="cable paid out [m]" if deep else "peak period Tp [s]", ylabel=f"limiting Hs at {fixed} [m]")
-    ax.set_ylim(bottom=0.0)
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    _legend_below(ax, title="waves go towards (180: head sea)")
+    dress(ax, "", BELOW | {"title": "waves go towards (180: head sea)"}, ylim=(0.0, None))
 
 
 def plot_lowering(found: Lowering) -> Figure:
@@ -102,7 +95,7 @@ def plot_lowering(found: Lowering) -> Figure:
     left.axvline(found.speed[found.best], color=QUIET, linestyle="--", linewidth=1.0)
     left.annotate(f"best: {found.speed[found.best]:.3g} m/s", (found.speed[found.best], 1.0), xytext=(4, -2),
                   textcoords="offset points", va="top", fontsize=8, xycoords=("data", "axes fraction"))  # fmt: skip
-    left.set(xlabel="winch speed [m/s]", ylabel="probability of slack in the descent", ylim=(1e-8, 2.0))
+    dress(left, xlabel="winch speed [m/s]", ylabel="probability of slack in the descent", ylim=(1e-8, 2.0))
     chosen = dict.fromkeys((0, found.best, found.speed.size - 1))
     for number, row in enumerate(chosen):
         right.semilogx(found.slack_rate[row] * 3600.0, found.depth, color=COLOURS[number],
@@ -110,20 +103,10 @@ def plot_lowering(found: Lowering) -> Figure:
     if found.resonant.any():
         band = found.depth[found.resonant]
         right.axhspan(band[0], band[-1], color=COLOURS[4], alpha=0.2, label="resonant with Tp")
-    right.set(xlabel="expected slack events per hour", ylabel="cable paid out [m]")
-    right.set_xlim(left=1e-9)
-    right.set_ylim(found.depth.max(), found.depth.min())
-    for ax in (left, right):
-        ax.grid(alpha=0.25, linewidth=0.6)
-        ax.spines[["top", "right"]].set_visible(False)
-    _legend_below(right)
+    shown: dict[str, Any] = {"xlim": (1e-9, None), "ylim": (found.depth.max(), found.depth.min())}
+    dress(right, "", BELOW, xlabel="expected slack events per hour", ylabel="cable paid out [m]", **shown)
     sea = found.spectrum
-    figure.suptitle(
-        f"{found.operation.name}: lowering in Hs {sea.significant_height:g} m, Tp {sea.peak_period:g} s, waves towards "
-        f"{np.degrees(found.heading):.0f} deg", fontsize=10, x=0.01, ha="left",
-    )  # fmt: skip
+    waves = f"Hs {sea.significant_height:g} m, Tp {sea.peak_period:g} s, waves towards"
+    title = f"{found.operation.name}: lowering in {waves} {np.degrees(found.heading):.0f} deg"
+    figure.suptitle(title, fontsize=10, x=0.01, ha="left")
     return figure
-
-
-def _legend_below(ax: Axes, **options: str) -> None:
-    ax.legend(fontsize=8, ncols=4, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.14), **options)  # type: ignore[arg-type]

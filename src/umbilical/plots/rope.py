@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, draw, finish, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, draw, dress, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,13 +33,11 @@ def plot_shape(run: Run) -> Figure:
     chosen = np.unique(np.linspace(0, place.shape[0] - 1, SHAPES).round().astype(int))
     for axis, (ax, name) in enumerate(zip(views, "xy", strict=True)):
         for order, k in enumerate(chosen):
-            ax.plot(place[k, axis], place[k, 2], color="C0", alpha=0.25 + 0.75 * order / max(chosen.size - 1, 1))
-            ax.plot(place[k, axis, -1], place[k, 2, -1], "o", color="C1", markersize=4)
-        ax.set_xlabel(f"${name}$ [m]")
+            ax.plot(place[k, axis], place[k, 2], color=COLOURS[0], alpha=0.25 + 0.75 * order / max(chosen.size - 1, 1))
+            ax.plot(place[k, axis, -1], place[k, 2, -1], "o", color=COLOURS[1], markersize=4)
         middle = 0.5 * float(place[:, axis].min() + place[:, axis].max())
         half = max(0.6 * float(np.ptp(place[:, axis])), LEAST_SHARE * float(np.ptp(place[:, 2])))
-        ax.set_xlim(middle - half, middle + half)
-        ax.grid(visible=True, alpha=0.3)
+        dress(ax, xlabel=f"${name}$ [m]", xlim=(middle - half, middle + half))
     views[0].set_ylabel("height $z$ [m]")
     figure.suptitle(f"{run.scenario.name}: shape of the cable, {run['time'].values[0]:g} to {run.end_time:g} s")
     return figure
@@ -57,15 +55,10 @@ def plot_tension(run: Run, *, ax: Axes | None = None) -> Axes:
     ax.fill_betweenx(sigma, pull.min("time"), pull.max("time"), alpha=0.25, label="smallest to largest")
     ax.plot(pull.mean("time"), sigma, label="mean")
     ax.axvline(0.0, color="0.3", linewidth=0.8)
-    ax.set_xlabel(axis_label(pull))
-    ax.set_ylabel(r"$\sigma = x/l$, 0 at the vessel")
-    ax.set_ylim(1.0, 0.0)
-    ax.set_xlim(0.0, None)
     slack, share = float(run["slack_length"].max()), run.metrics["slack_share"]
     told = f"slack on up to {slack:.3g} m, in {100.0 * share:.3g} % of the time" if share else "never slack"
-    ax.set_title(f"{run.scenario.name}: tension along the cable, {told}", loc="left", fontsize=10)
-    ax.legend()
-    return ax
+    ax.set(xlabel=axis_label(pull), ylabel=r"$\sigma = x/l$, 0 at the vessel", xlim=(0.0, None), ylim=(1.0, 0.0))
+    return dress(ax, f"{run.scenario.name}: tension along the cable, {told}")
 
 
 def plot_tensions(run: Run, *, ax: Axes | None = None) -> Axes:
@@ -104,10 +97,8 @@ def plot_watch(run: Run, *, ax: Axes | None = None) -> Axes:
     name = f"watch circle, {radius:.3g} m"
     ax.plot(x[0] + radius * np.cos(round_), y[0] + radius * np.sin(round_), "--", color=QUIET, label=name)
     ax.set(xlabel="$x$ [m]", ylabel="$y$ [m]", aspect="equal")
-    ax.set_title(f"{run.scenario.name}: the body from above", loc="left")
-    ax.grid(visible=True, alpha=0.3)
-    ax.legend(fontsize=8, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False)
-    return ax
+    beside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
+    return dress(ax, f"{run.scenario.name}: the body from above", beside)
 
 
 def _of_a_rope(run: Run) -> None:

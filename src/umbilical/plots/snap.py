@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.stats import gumbel_r
 
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,20 +35,10 @@ def plot_snaps(found: SnapStudy) -> Axes:
         x = np.linspace(tension.min(), max(tension.max(), fit.exceeded.high / 1e3), 200)
         ax.plot(x, gumbel_r.sf(1e3 * x, fit.location, fit.scale), color="black", linewidth=1.2, label="Gumbel")
         ends = np.array([[fit.exceeded.value - fit.exceeded.low], [fit.exceeded.high - fit.exceeded.value]]) / 1e3
-        ax.errorbar(
-            fit.exceeded.value / 1e3, 0.01, xerr=ends, color="black", capsize=4, label="95 % at one in a hundred"
-        )
+        bar = {"color": "black", "capsize": 4, "label": "95 % at one in a hundred"}
+        ax.errorbar(fit.exceeded.value / 1e3, 0.01, xerr=ends, **bar)
     ax.axvline(found.static_tension / 1e3, color=QUIET, linewidth=1.0, label="static, at the vessel")
     ax.axvline(found.rule_of_thumb / 1e3, color=QUIET, linestyle="--", linewidth=1.0, label=r"static + $v\sqrt{KM}$")
-    ax.set(
-        xlabel="largest tension of a run [kN]",
-        ylabel="share of the runs that exceed it",
-        yscale="log",
-        ylim=(5e-3, 1.2),
-    )
-    ax.set_title(
-        f"{found.scenario.name}: {tension.size} seeds of {found.scenario.duration:g} s", loc="left", fontsize=10
-    )
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.legend(fontsize=8, frameon=False)
-    return ax
+    title = f"{found.scenario.name}: {tension.size} seeds of {found.scenario.duration:g} s"
+    ax.set(xlabel="largest tension of a run [kN]", ylabel="share of the runs that exceed it", yscale="log")
+    return dress(ax, title, ylim=(5e-3, 1.2))

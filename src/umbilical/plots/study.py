@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical.analysis.paired import Estimate
 from umbilical.errors import expect
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
 from umbilical.studies.statistics import against, at, beyond, percent, ratios, told
@@ -39,11 +39,10 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
         values = np.sort(values[~np.isnan(values)])
         shares = np.arange(1, values.size + 1) / max(values.size, 1)
         finite = np.isfinite(values)
-        style = {"color": _colour(colour), **_dashes(colour)}
         named = f"{arm}\n  {_in_words(result, metric, arm)}"
-        ax.step(values[finite], shares[finite], where="post", label=named, **style)
+        ax.step(values[finite], shares[finite], where="post", label=named, **_look(colour))
         for share in (0.5, 0.95):
-            _interval(ax, at(result, metric, arm, share), share, _colour(colour))
+            _interval(ax, at(result, metric, arm, share), share, _look(colour)["color"])
         spread += [values[finite]]
     _logarithmic_if_wide(ax, np.concatenate(spread))
     if (limit := result.study.limits.get(metric)) is not None:
@@ -88,7 +87,7 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
         text = f"{arm}\n  over {other}:\n  median {told(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
-        ax.step(ratio, shares, where="post", color=_colour(colour), label=text, **_dashes(colour))
+        ax.step(ratio, shares, where="post", label=text, **_look(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")
@@ -112,7 +111,7 @@ def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *,
         rows = [by_name[drawn] for drawn in names]
         lower = np.arange(len(rows)) + (place - (len(found) - 1) / 2.0) * height
         errors = np.nan_to_num([row.first_error for row in rows])
-        bars = {"height": height, "color": _colour(result.arms.index(name)), "label": name}
+        bars = {"height": height, "color": _look(result.arms.index(name))["color"], "label": name}
         ax.barh(lower, [row.first for row in rows], xerr=errors if errors.any() else None, **bars)
     ax.set_yticks(range(len(names)), names)
     ax.invert_yaxis()
@@ -168,10 +167,7 @@ def _maps(result: StudyResult, metric: str) -> Figure:
     """One map for each arm, and for the last one's ratio to the first; a row of them for each motor that fails."""
     rows = _motors(result)
     top = largest_mean(result, metric, rows)
-    columns: list[dict[str, Any]] = [
-        {"arm": arm, "top": top, "bar": arm == result.arms[-1]}
-        for arm in result.arms  # one scale for all of them
-    ]
+    columns: list[dict[str, Any]] = [{"arm": a, "top": top, "bar": a == result.arms[-1]} for a in result.arms]
     columns += [{"arm": result.arms[-1], "over": result.arms[0]}] if len(result.arms) > 1 else []
     figure = new_figure(4.6 * len(columns), 3.6 * len(rows))
     panels = figure.subplots(len(rows), len(columns), squeeze=False)
@@ -193,13 +189,9 @@ def _title(figure: Figure, result: StudyResult, metric: str) -> Figure:
     return figure
 
 
-def _colour(number: int) -> str:
-    return COLOURS[number % len(COLOURS)]
-
-
-def _dashes(number: int) -> dict[str, Any]:
-    """Neighbours differ in dashes, the dashed ones on top, so that both show where they agree."""
-    return {"linestyle": "--", "zorder": 3} if number % 2 else {}
+def _look(number: int) -> dict[str, Any]:
+    """Neighbours differ in dashes, too, the dashed ones on top, so that both show where they agree."""
+    return {"color": COLOURS[number % len(COLOURS)]} | ({"linestyle": "--", "zorder": 3} if number % 2 else {})
 
 
 def _logarithmic_if_wide(ax: Axes, values: np.ndarray) -> None:
@@ -208,13 +200,8 @@ def _logarithmic_if_wide(ax: Axes, values: np.ndarray) -> None:
 
 
 def _finish(ax: Axes, title: str) -> Axes:
-    ax.set_title(title, fontsize=9.5, loc="left")
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    legend = {"fontsize": 7, "frameon": False, "loc": "upper center", "borderaxespad": 0.0}
-    names = len(ax.get_legend_handles_labels()[1])
-    ax.legend(ncols=min(names, 2), bbox_to_anchor=(0.5, -0.16), **legend)  # below, where no line is
-    return ax
+    below = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16), "borderaxespad": 0.0}  # where no line is
+    return dress(ax, title, below | {"fontsize": 7, "ncols": min(len(ax.get_legend_handles_labels()[1]), 2)})
 
 
 STUDY_PLOTS = {

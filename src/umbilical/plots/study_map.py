@@ -40,18 +40,9 @@ class Cells(NamedTuple):
 
 
 def plot_map(
-    result: StudyResult,
-    metric: str = USUAL,
-    x: str = "",
-    y: str = "",
-    arm: str = "",
-    *,
-    over: str = "",
-    where: Mapping[str, Any] | None = None,
-    top: float | None = None,
-    bar: bool = True,
-    ax: Axes | None = None,
-) -> Axes:
+    result: StudyResult, metric: str = USUAL, x: str = "", y: str = "", arm: str = "", *, over: str = "",
+    where: Mapping[str, Any] | None = None, top: float | None = None, bar: bool = True, ax: Axes | None = None,
+) -> Axes:  # fmt: skip
     """Mean of a metric over two draws, as a map: cells of a grid, or bins of a continuum.
 
     Means are over the runs that completed; cells in which some did not say how many in percent.
@@ -75,9 +66,7 @@ def plot_map(
     ax = ax or new_figure(6.0, 4.2).add_subplot()
     across, up = (_axis(result, name) for name in (x, y))
     found = _cells(result, ratios(result, metric, arm, over) if over else result.values(metric, arm), across, up, where)
-    style: dict[str, Any] = (
-        _around_one(found.mean) if over else {"cmap": "viridis", "vmin": 0.0, "vmax": top or _largest(found.mean)}
-    )
+    style = _around_one(found.mean) if over else _from_zero(top or _largest(found.mean))
     picture = ax.pcolormesh(across.edges, up.edges, found.mean.T, **style)
     text = f"ratio of {metric}" if over else label(metric)
     text = f"mean of {text}" if found.members > 1 else text
@@ -156,6 +145,10 @@ def _cells(result: StudyResult, values: np.ndarray, x: Axis, y: Axis, where: Map
 
 def _largest(means: np.ndarray) -> float:
     return float(means[np.isfinite(means)].max(initial=0.0)) or 1.0
+
+
+def _from_zero(top: float) -> dict[str, Any]:
+    return {"cmap": "viridis", "vmin": 0.0, "vmax": top}
 
 
 def _around_one(ratio: np.ndarray) -> dict[str, Any]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.quantities import METRICS
 from umbilical.studies.tune import name_of, tuning_of
 
@@ -32,7 +32,9 @@ def plot_tuning(found: Tuned, *, ax: Axes | None = None) -> Axes:
     objectives = tuning_of(found.study).objectives
     sound = [(k, t.verdict.values) for k, t in enumerate(found.trials, start=1) if t.verdict.broken == 0.0]
     points = np.array([values if len(objectives) == 2 else (number, *values) for number, values in sound])
-    best = np.array([values if len(objectives) == 2 else (_number(found, values), *values) for values in _front(found)])
+    places = {values: number for number, values in reversed(sound)}
+    front = [trial.verdict.values for trial in found.front]
+    best = np.array([values if len(objectives) == 2 else (places[values], *values) for values in front])
     ax.scatter(*points.T, s=16, color=QUIET, label=f"{len(points)} of {len(found.trials)} trials keep every condition")
     ax.plot(*best.T, "o-", color=COLOURS[1], label="no other trial beats these")
     for number, point in enumerate(best, start=1):
@@ -43,19 +45,8 @@ def plot_tuning(found: Tuned, *, ax: Axes | None = None) -> Axes:
     for axis, values in (("x", points[:, 0]), ("y", points[:, 1])):
         if values.min() > 0.0 and values.max() > _DECADE * values.min() and (axis == "y" or len(words) == 2):
             ax.set(**{f"{axis}scale": "log"})
-    ax.set_title(f"{found.study.name}: {', '.join(found.conditions)}", fontsize=9.5, loc="left")
-    ax.grid(alpha=0.25, linewidth=0.6)
-    ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(fontsize=8, frameon=True, framealpha=0.9, edgecolor="none", loc="best")
-    return ax
-
-
-def _front(found: Tuned) -> list[tuple[float, ...]]:
-    return [trial.verdict.values for trial in found.front]
-
-
-def _number(found: Tuned, values: tuple[float, ...]) -> int:
-    return next(k for k, trial in enumerate(found.trials, start=1) if trial.verdict.values == values)
+    legend = {"frameon": True, "framealpha": 0.9, "edgecolor": "none", "loc": "best"}
+    return dress(ax, f"{found.study.name}: {', '.join(found.conditions)}", legend)
 
 
 def label_of(objective: Objective) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,16 +38,12 @@ def plot_weather(found: Weather) -> Figure:
         left.scatter(found.seas.period[mask], found.seas.height[mask], s=size[mask], color=colour, alpha=0.5,
                      linewidths=0.0, label=name)  # fmt: skip
     left.plot(found.found.period, found.found.limit.min(axis=(0, 2)), color="black", linewidth=1.5, label="limit")
-    left.set(xlabel="peak period Tp [s]", ylabel="significant wave height Hs [m]", ylim=(0.0, None))
+    dress(left, xlabel="peak period Tp [s]", ylabel="significant wave height Hs [m]", ylim=(0.0, None))
     if timed:
         right, hours = axes[1], np.sort(found.windows)[::-1] / 3600.0
         right.step(hours, np.arange(1, hours.size + 1), color=COLOURS[0], where="post")
         right.axvline(found.needed / 3600.0, color=QUIET, linestyle="--", linewidth=1.0, label="needed")
-        right.set(xlabel="length of a window [h]", ylabel="windows that last as long", xscale="log")
-    for ax in axes:
-        ax.grid(alpha=0.25, linewidth=0.6)
-        ax.spines[["top", "right"]].set_visible(False)
-        ax.legend(fontsize=8, frameon=False)
+        dress(right, xlabel="length of a window [h]", ylabel="windows that last as long", xscale="log")
     figure.suptitle(f"{found.found.operation.name}: {found.share:.1%} of the sea states are workable", fontsize=10,
                     x=0.01, ha="left")  # fmt: skip
     return figure
