@@ -42,10 +42,11 @@ if TYPE_CHECKING:
         plot_winch,
     )
     from umbilical.report.player import show
-    from umbilical.run import Run, Status, open_run
+    from umbilical.run import Run, Status
     from umbilical.scenario import Scenario
     from umbilical.screening import load_operation, lower, operate
     from umbilical.stability.margins import margins
+    from umbilical.stored_runs import open_run
     from umbilical.studies.load import load_study
     from umbilical.studies.results import StudyResult, open_study
     from umbilical.studies.study import Study
@@ -76,7 +77,7 @@ _HOMES = {
     "load_study": "umbilical.studies.load",
     "lower": "umbilical.screening",
     "margins": "umbilical.stability.margins",
-    "open_run": "umbilical.run",
+    "open_run": "umbilical.stored_runs",
     "open_study": "umbilical.studies.results",
     "operate": "umbilical.screening",
     "plot_cable": "umbilical.plots",

@@ -6,7 +6,7 @@ import html
 import json
 import os
 import platform
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from importlib.metadata import version
@@ -16,26 +16,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical import __version__, files
-from umbilical.contents import (
-    CONTENTS,
-    check,
-    contents_of,
-    instant,
-    json_of,
-    kind_of,
-    one_of,
-    pairs,
-    refuse,
-    stated_sizes,
-    text,
-    whole_number,
-    wrong_array,
-)
+from umbilical.contents import CONTENTS, contents_of, stated_sizes
 from umbilical.coordinates import attributes, coordinates, dimensions
-from umbilical.errors import FileError, OutputError, ScenarioError
-from umbilical.formats import EXPORTS, RESULT_SCHEMA, from_netcdf, to_netcdf
+from umbilical.errors import OutputError
+from umbilical.formats import EXPORTS, RESULT_SCHEMA, to_netcdf
 from umbilical.quantities import CHANNELS, METRICS
-from umbilical.stored_numbers import METRIC, wrong_times, wrong_values
+from umbilical.stored_numbers import METRIC
 
 if TYPE_CHECKING:
     import xarray
@@ -48,10 +34,11 @@ CONVENTION = (
 )
 
 _LOGGED = "controller_"
+CONTROLLER = "controller"
+"""Attribute with the name of a controller that decided in place of the scenario's own."""
 SNAPS = "snaps"
 """Attribute with the snaps of a rope, as JSON: pairs of an instant, s, and a peak, N."""
 _SHOWN_SNAPS = 5
-_OF_CONTROLLER = {"units": "", "long_name": "logged by the controller", "symbol": ""}
 
 
 class Status(Enum):
@@ -147,6 +134,21 @@ class Run:
         """The instant it ended at, s."""
         return float(self._kept.attrs["end_time"])
 
+    @property
+    def controller(self) -> str:
+        """What decided in place of the scenario's own controller, which a file does not hold; empty for nothing."""
+        return self._kept.attrs.get(CONTROLLER, "")
+
+    @property
+    def name(self) -> str:
+        """The scenario's name, and the controller's that decided in place of its own."""
+        return f"{self.scenario.name} with {self.controller}" if self.controller else self.scenario.name
+
+    def with_controller(self, name: str) -> Run:
+        """This run, with the name of what decided in place of the scenario's own controller."""
+        self._kept.attrs[CONTROLLER] = name
+        return self
+
     def with_notices(self, notices: Sequence[str]) -> Run:
         """This run, with something to be said of it first."""
         if notices:
@@ -217,6 +219,7 @@ class Run:
             "end_time": self.end_time,
             "scenario": self.scenario.name,
             "scenario_hash": self.scenario.hash,
+            **({"controller": self.controller} if self.controller else {}),
             "metrics": self.metrics,
             **({"snaps": self.snaps.tolist()} if self.snaps.size else {}),
             "timing": dict(self.timing),
@@ -231,7 +234,7 @@ class Run:
         return plot_overview(self, **options)
 
     def _headline(self) -> str:
-        status, when = f"{self.scenario.name}: {self.status.name}", "at t = "
+        status, when = f"{self.name}: {self.status.name}", "at t = "
         if self.reason.startswith(when):
             return f"{status} {self.reason}"
         end = f"{status} {when}{self.end_time:.6g} s"
@@ -301,7 +304,7 @@ def assemble(
         ValueError: an array's shape does not fit its dimensions.
     """
     variables = {name: _channel(name, values) for name, values in channels.items()}
-    variables |= {_LOGGED + name: (("time",), values, _OF_CONTROLLER) for name, values in (logged or {}).items()}
+    variables |= {_LOGGED + name: (("time",), values, _of_controller(name)) for name, values in (logged or {}).items()}
     variables |= {METRIC + name: ((), float(value), attributes(METRICS[name])) for name, value in metrics.items()}
     ending = {
         "status": status.name,
@@ -319,6 +322,11 @@ def _channel(name: str, values: np.ndarray) -> tuple[tuple[str, ...], np.ndarray
     return dimensions(name), np.asarray(values, dtype=float), attributes(CHANNELS[name])
 
 
+def _of_controller(name: str) -> dict[str, str]:
+    """Words for what a controller logs; it says no unit, so a picture of it shows none."""
+    return {"long_name": f"{name}, logged by the controller", "symbol": ""}
+
+
 def _identity(scenario: Scenario) -> dict[str, str | int]:
     """Where the numbers come from: scenario, seed, versions. No clock and no host, so that equal runs stay equal."""
     return {
@@ -333,67 +341,3 @@ def _identity(scenario: Scenario) -> dict[str, str | int]:
         "version_numba": version("numba"),
         "version_python": ".".join(platform.python_version_tuple()[:2]),
     }
-
-
-def open_run(path: str | os.PathLike[str]) -> Run:
-    """A stored run.
-
-    Args:
-        path: a .nc file.
-
-    Raises:
-        FileError: the file is missing, unreadable, damaged, not a result of Umbilical, of another schema version, or
-            holds a scenario this version refuses.
-
-    >>> import umbilical
-    >>> run = umbilical.simulate(umbilical.load("paper", {"duration": 0.5}))
-    >>> path = run.save("run.nc")
-    >>> umbilical.open_run("run.nc").metrics["tip_peak"] == run.metrics["tip_peak"]
-    True
-    """
-    from umbilical.scenario.document import parse
-
-    data = _of_a_run(path)
-    try:
-        scenario = parse(data.attrs["scenario"], f"{path}: the scenario inside")
-    except ScenarioError as error:
-        raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
-    refuse(wrong_times(data, scenario.duration, over=data.attrs["status"] == Status.COMPLETED.name), str(path))
-    return Run(data, scenario)
-
-
-def scenario_text(path: str | os.PathLike[str]) -> str:
-    """The TOML text of the scenario a stored run came from; raises as :func:`open_run` does."""
-    return _of_a_run(path).attrs["scenario"]
-
-
-_ORIGIN = dict.fromkeys(("title", "convention", "scenario", "scenario_hash", "reason"), text)
-_VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text)
-_ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
-
-
-def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
-    data = from_netcdf(files.read(path), str(path))
-    if (kind := kind_of(data)) != "run":
-        raise FileError(f"{path}: this is the result of a {kind}, not of a run")
-    snaps = {SNAPS: pairs} if SNAPS in data.attrs else {}
-    check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number} | snaps, "time", str(path))
-    refuse(filter(None, _wrong_arrays(data)), str(path))
-    return data
-
-
-def _wrong_arrays(data: xarray.Dataset) -> Iterator[str]:
-    """What keeps arrays from being those of a run."""
-    for name in map(str, data.variables):
-        if name in CHANNELS:
-            yield wrong_array(data[name], dimensions(name), "f")
-        elif name.startswith(METRIC):
-            yield wrong_array(data[name], (), "f")
-        elif name in data.sizes:
-            yield wrong_array(data[name], (name,), "fiu")
-    if data.attrs["status"] == Status.COMPLETED.name:
-        yield from wrong_values(data)
-    for name in sorted({"time", "sigma"} & set(data.coords)):
-        places = data[name].values
-        if places.dtype.kind == "f" and not (np.isfinite(places).all() and (np.diff(places) > 0.0).all()):
-            yield f"{name}: must be finite and increase"

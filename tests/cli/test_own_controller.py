@@ -45,13 +45,13 @@ def test_run(umbilical, laws):
     document = done.document()
     assert (done.code, document["controller"]) == (0, f"{laws}:Damper")
     text = umbilical("run", "paper", "--set", "duration=0.5", "--controller", f"{laws}:Damper").out
-    assert f"controller: {laws}:Damper, in place of the scenario's" in text
+    assert f"controller: {laws}:Damper in place of the scenario's own" in text
 
 
 def test_margins(umbilical, laws):
     done = umbilical("margins", "ringdown", "--controller", f"{laws}:Damper", "--grid", "0")
     assert done.code == 0
-    assert done.out.startswith("ringdown: stable")
+    assert done.out.startswith("ringdown with Damper: stable")
     assert "Damper linearised with the ROV at rest" in done.out
 
 
@@ -59,16 +59,33 @@ def test_margins_that_nothing_speaks_for_are_unresolved(umbilical, laws, tmp_pat
     picture = tmp_path / "margins.png"
     done = umbilical("margins", "ringdown", "--controller", f"{laws}:Bang", "--plot", picture)
     assert done.code == 7
-    assert done.out.startswith("ringdown: UNRESOLVED, Bang: ")
+    assert done.out.startswith("ringdown with Bang: UNRESOLVED, ")
     assert not picture.exists()
     document = umbilical("margins", "ringdown", "--controller", f"{laws}:Bang", "--json").document()
     assert (document["verdict"], document["stable"], document["lengths"]) == ("UNRESOLVED", False, [])
 
 
 @pytest.mark.parametrize("command", ["run", "margins"])
-@pytest.mark.parametrize(("name", "why"), [("Broken", "no start, update"), ("Missing", "AttributeError")])
+@pytest.mark.parametrize(("name", "why"), [("Broken", "no start, update"), ("Missing", "has no attribute")])
 def test_what_is_no_controller_is_refused_before_the_work(umbilical, laws, command, name, why):
     done = umbilical(command, "ringdown", "--controller", f"{laws}:{name}")
     assert done.code == 2
     assert why in done.err
     assert "Traceback" not in done.err
+
+
+def test_a_result_says_what_decided_and_never_passes_for_the_scenarios_own(umbilical, laws, tmp_path):
+    own, result = f"{laws}:Damper", tmp_path / "own.nc"
+    umbilical("run", "paper", "--set", "duration=0.5", "--controller", own, "--out", result)
+    assert umbilical("show", result).out.startswith(f"paper with {own}: COMPLETED")
+    assert umbilical("show", result, "--json").document()["controller"] == own
+    again = umbilical("run", result)
+    assert f"this run had the controller {own}" in again.err
+    assert again.out.startswith("paper: COMPLETED")
+    assert "controller" not in umbilical("run", result, "--controller", own).err
+
+
+def test_names_of_a_module_are_told_where_one_is_missing(umbilical, laws):
+    assert "did you mean 'Damper'?" in umbilical("run", "paper", "--controller", f"{laws}:Dampr").err
+    assert f"{laws}:NAME" in umbilical("run", "paper", "--controller", f"{laws}.py:Damper").err
+    assert "known: Damper, Bang, Broken" in umbilical("run", "paper", "--controller", laws).err

@@ -148,7 +148,7 @@ def test_signals_of_two_runs_meet_by_what_they_are(slack: Run, run: Run) -> None
 
 def test_two_runs_of_one_name_are_told_apart(run: Run) -> None:
     reels = film(page.player(run, run))["runs"]
-    assert [reel["name"] for reel in reels] == ["paper-stuck (1)", "paper-stuck (2)"]
+    assert [reel["name"] for reel in reels] == ["paper-stuck", "paper-stuck (2)"]
     assert [reel["status"].split(":")[0] for reel in reels] == [reel["name"] for reel in reels]
 
 

@@ -16,7 +16,8 @@ import xarray
 
 from umbilical.errors import FileError, OutputError
 from umbilical.formats import from_netcdf
-from umbilical.run import Status, open_run, scenario_text
+from umbilical.run import Status
+from umbilical.stored_runs import open_run, scenario_text
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from umbilical import load
 from umbilical.engine.simulate import measure, simulate
 from umbilical.errors import FileError, OutputError
 from umbilical.formats import to_netcdf
-from umbilical.run import open_run
+from umbilical.stored_runs import open_run
 from umbilical.studies import engines, rows
 from umbilical.studies.cluster import connect, dask, on_client
 from umbilical.studies.load import load_study

@@ -56,7 +56,7 @@ def compare(*runs: Run, names: Sequence[str] = ()) -> Comparison:
 
     Args:
         runs: two or more; ratios are to the first.
-        names: what each is called; the scenarios' names, numbered where equal, if left out.
+        names: what each is called; the names of the runs, numbered where equal, if left out.
 
     Raises:
         ValueError: fewer than two runs, or another number of names.
@@ -72,10 +72,11 @@ def compare(*runs: Run, names: Sequence[str] = ()) -> Comparison:
         expect(run, "Run", "open_run")
     if len(runs) < 2 or (names and len(names) != len(runs)):
         raise ValueError(f"compare takes two or more runs and a name for each; got {len(runs)} and {len(names)} names")
-    return Comparison(runs, tuple(names) or _told_apart([run.scenario.name for run in runs]))
+    return Comparison(runs, tuple(names) or distinct_names(runs))
 
 
-def _told_apart(names: Sequence[str]) -> tuple[str, ...]:
-    """Equal names numbered from the second on."""
+def distinct_names(runs: Sequence[Run]) -> tuple[str, ...]:
+    """The names of runs, equal ones numbered from the second on."""
+    names = [run.name for run in runs]
     before = [list(names[:k]).count(name) for k, name in enumerate(names)]
     return tuple(f"{name} ({n + 1})" if n else name for name, n in zip(names, before, strict=True))

@@ -32,14 +32,17 @@ def animate(
     target = out or file.with_suffix(".html")
     check_target(target, ("html",), force=force)
     from umbilical import files
+    from umbilical.analysis.comparison import distinct_names
     from umbilical.errors import FileError
     from umbilical.report.player import player
-    from umbilical.run import open_run
+    from umbilical.stored_runs import open_run
 
-    runs = [open_run(path) for path in (file, compare) if path]
+    given = [path for path in (file, compare) if path]
+    runs = [open_run(path) for path in given]
+    names = [path.stem for path in given] if len({path.stem for path in given}) > 1 else distinct_names(runs)
     try:
-        page = player(*runs)
+        page = player(*runs, names=names)
     except ValueError as error:
         raise FileError(str(error)) from error
     written = files.write(target, page.encode("utf-8"), force=force)
-    print_result(f"{written}: {len(page) / 1e3:.0f} kB, plays {' and '.join(run.scenario.name for run in runs)}")
+    print_result(f"{written}: {len(page) / 1e3:.0f} kB, plays {' and '.join(names)}")

@@ -62,7 +62,7 @@ def export(
 
 
 def _export_result(file: Path, to: Literal["csv", "mat"], out: Path | None, force: bool) -> None:
-    from umbilical.run import open_run
+    from umbilical.stored_runs import open_run
 
     written = open_run(file).export(out or file.with_suffix(f".{to}"), to, force=force)
     print_result(f"export: {written}")

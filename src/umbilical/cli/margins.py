@@ -50,7 +50,7 @@ def margins(
     at every length, or unresolved: exact cable, grids and eigenvalues do not say the same, or a controller does not do
     what its linearisation does.
     """
-    chosen = load_changed(scenario, changes or [])
+    chosen = load_changed(scenario, changes or [], controller)
     check_target(plot, PICTURES, force=force)
     from umbilical.stability.margins import margins as compute
 

@@ -65,7 +65,7 @@ def _picture(
 ) -> Callable[[], Axes | Figure]:
     """What draws the picture, of a run or of a study."""
     from umbilical.plots import PLOTS, ROPE_PLOTS, STUDY_PLOTS
-    from umbilical.run import open_run
+    from umbilical.stored_runs import open_run
     from umbilical.studies.load import is_study
 
     study = is_study(str(file))

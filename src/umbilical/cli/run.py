@@ -40,7 +40,7 @@ def run(
 
     Lists are numbered from 1. A diverged or interrupted run is stored and drawn as far as it went.
     """
-    chosen = load_changed(scenario, changes or [])
+    chosen = load_changed(scenario, changes or [], controller)
     check_target(out, ("nc",), force=force)
     check_target(plot, PICTURES, force=force)
     if out:
@@ -52,12 +52,14 @@ def run(
     if found and found.slope:
         report(f"{chosen.name}: {found}")
     result = simulate_visibly(chosen, own_controller(controller, chosen))
+    if controller:
+        result.with_controller(controller)
     files = _write(result, out, plot, force)
     if as_json:
-        known = {"files": files, "controller": controller, "statics": found and found._asdict()}
+        known = {"files": files, "controller": result.controller or None, "statics": found and found._asdict()}
         print_json(result.to_dict() | known)
     else:
-        print_result(_report(result, files, scenario, controller))
+        print_result(_report(result, files, scenario))
     return result.status.exit_code
 
 
@@ -85,8 +87,10 @@ def own_controller(name: str | None, scenario: Scenario) -> Controller | None:
     return named_controller(name, scenario)
 
 
-def load_changed(source: str, changes: Sequence[str]) -> Scenario:
+def load_changed(source: str, changes: Sequence[str], controller: str | None = None) -> Scenario:
     """A scenario with ``key=value`` changes.
+
+    Of a result that another controller made it says so, unless a ``controller`` is given.
 
     Raises:
         FileError: there is no such scenario.
@@ -109,7 +113,16 @@ def load_changed(source: str, changes: Sequence[str]) -> Scenario:
         raise ScenarioError([*problems, *error.problems], error.origin) from error
     if problems:
         raise ScenarioError(problems, source)
+    if Path(source).suffix == ".nc" and not controller:
+        _report_other_controller(source)
     return scenario
+
+
+def _report_other_controller(source: str) -> None:
+    from umbilical.stored_runs import controller_name
+
+    if name := controller_name(source):
+        report(f"{source}: this run had the controller {name}; what follows is about the scenario's own controller")
 
 
 def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
@@ -123,10 +136,10 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     return files | draw(run.plot, plot, force=force)
 
 
-def _report(run: Run, files: dict[str, str], source: str, controller: str | None) -> str:
+def _report(run: Run, files: dict[str, str], source: str) -> str:
     lines = [run.summary()]
-    if controller:
-        lines.append(f"  controller: {controller}, in place of the scenario's; a result does not hold it")
+    if run.controller:
+        lines.append(f"  controller: {run.controller} in place of the scenario's own; the result holds its name only")
     if run.scenario.assumed:
         count = len(run.scenario.assumed)
         lines.append(f"  assumed: {count} entries that no source gives; `umbilical show {source}` lists them")

@@ -77,7 +77,7 @@ def _show_study(
 
 
 def _show_run(file: str, as_json: bool) -> None:
-    from umbilical.run import open_run
+    from umbilical.stored_runs import open_run
 
     run = open_run(file)
     if as_json:
@@ -134,7 +134,7 @@ def compare(
     """
     from umbilical.analysis.comparison import compare as compute
     from umbilical.faces.comparison import document, text
-    from umbilical.run import open_run
+    from umbilical.stored_runs import open_run
 
     if len(files) < 2:
         raise BadParameter("two or more results are compared", param_hint="FILES")

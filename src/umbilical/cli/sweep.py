@@ -137,7 +137,10 @@ def member(
         raise BadParameter(f"there are members 1 to {len(draws)}", param_hint="NUMBER")
     if arm is not None and arm not in arms:
         raise BadParameter(f"there are the arms {', '.join(arms)}", param_hint="--arm")
-    text = draws.scenario(draws.member(number), arms.index(arm) if arm else 0).to_toml()
+    place = arms.index(arm) if arm else 0
+    if own := chosen.arms[place].controller:
+        report(f"arm '{arms[place]}' is decided by {own}: run the scenario with --controller {own}")
+    text = draws.scenario(draws.member(number), place).to_toml()
     if out:
         print_result(f"scenario: {files.write(out, text.encode(), force=force)}")
     else:

@@ -53,7 +53,7 @@ class Episode:
         period: how long a command is held, s, a multiple of the scenario's ``control.period`` (the default). The last
             step ends with the run and may be shorter.
         stored: False keeps no samples but the first and the last, for metrics alone.
-        owner: whose period it is, for the message of an error.
+        owner: whose period and commands these are, for the message of an error and the name of the run.
 
     Raises:
         ScenarioError: the scenario or the period was refused, with every problem.
@@ -72,6 +72,7 @@ class Episode:
     ) -> None:
         begun = perf_counter()
         self.scenario, self._notices = scenario, tuple(str(notice) for notice in admit(scenario))
+        self._owner = owner
         self._held = 1 if period is None else _periods(scenario, float(period), owner)
         self._model = make_model(scenario, stored=stored, held=True)
         self._update, self._driven, self._sampling = 0, False, 0.0
@@ -158,7 +159,8 @@ class Episode:
             simulated = perf_counter() - self._begun
             timing = {"prepare_s": self._prepared, "simulate_s": simulated, "outside_s": self._sampling}
             notices = (*self._notices, *self._model.notices())
-            self._run = self._model.assemble(ending, notices, timing, self._logged)
+            run = self._model.assemble(ending, notices, timing, self._logged)
+            self._run = run.with_controller(self._owner)
         return self._run
 
     def metrics(self) -> dict[str, float]:

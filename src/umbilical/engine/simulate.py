@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from time import perf_counter
+from traceback import extract_tb
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -191,7 +193,14 @@ def _asked(controller: Controller, episode: Episode, method: Callable[..., Any],
         raise
     except BaseException as error:  # sys.exit() of a controller ends its run, not the program around it
         at = f"{type(controller).__name__} failed at t = {episode.time:g} s"
-        raise ControllerError(f"{at}: {type(error).__name__}: {error}") from error
+        raise ControllerError(f"{at}: {type(error).__name__}: {error}{_line(error)}") from error
+
+
+def _line(error: BaseException) -> str:
+    """Where in the controller's own code it happened."""
+    package = str(Path(__file__).parents[1])
+    own = [place for place in extract_tb(error.__traceback__) if not place.filename.startswith(package)]
+    return f" ({Path(own[0].filename).name}, line {own[0].lineno})" if own else ""
 
 
 def _run(scenario: Scenario, model: Model, progress: Callable[[float], None] | None) -> tuple[Ending, float]:

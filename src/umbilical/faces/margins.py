@@ -24,11 +24,11 @@ SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency t
 def conclusion(report: MarginReport) -> Conclusion:
     """Whether the loop is stable at every length, if the grids that were asked agree."""
     if report.doubt:
-        return Conclusion("UNRESOLVED", f"{report.scenario.name}: UNRESOLVED, {report.controller}: {report.doubt}")
+        return Conclusion("UNRESOLVED", f"{report.name}: UNRESOLVED, {report.doubt}")
     state = "stable" if report.stable else "NOT STABLE"
     if report.resolved is False:
-        return Conclusion("UNRESOLVED", f"{report.scenario.name}: UNRESOLVED, {_disagreement(report)}")
-    headline = f"{report.scenario.name}: {state} in linearised sampled operation"
+        return Conclusion("UNRESOLVED", f"{report.name}: UNRESOLVED, {_disagreement(report)}")
+    headline = f"{report.name}: {state} in linearised sampled operation"
     return Conclusion("HOLDS" if report.stable else "DOES_NOT_HOLD", headline)
 
 
@@ -133,7 +133,8 @@ def _disagreement(report: MarginReport) -> str:
     exact = f"the exact cable says {'stable' if report.stable else 'not stable'}"
     if report.check and not report.check.agrees:
         return f"eigenvalues and Nyquist's count disagree on {report.check.elements} elements; {exact}"
-    return f"the grids differ from the exact cable at the longest length; {exact}"
+    worst = max(report.grids[-2:], key=lambda grid: grid.difference)
+    return f"the grid of {worst.elements} elements differs from the exact cable: {_apart(worst)}; {exact}"
 
 
 def rows(report: MarginReport) -> list[tuple[str, ...]]:

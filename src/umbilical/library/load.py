@@ -77,7 +77,7 @@ def _text(source: str) -> str:
         return preset_text(source)
     path = Path(source)
     if path.suffix == ".nc":
-        from umbilical.run import scenario_text  # brings xarray along
+        from umbilical.stored_runs import scenario_text  # brings xarray along
 
         return scenario_text(path)
     return _file_text(path)

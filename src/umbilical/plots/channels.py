@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.analysis.comparison import distinct_names
 from umbilical.errors import expect
 from umbilical.plots.cable import plot_cable, plot_positions
 from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, check_drawable, draw, finish, new_figure, note
@@ -39,7 +40,7 @@ ESTIMATES = {
 
 
 def plot_tip(run: Run | Sequence[Run], *, names: Sequence[str] = (), ax: Axes | None = None) -> Axes:
-    """Displacement of the ROV over time, m; of several runs one line each, named by ``names`` or by scenario.
+    """Displacement of the ROV over time, m; of several runs one line each, named by ``names`` or each by its own.
 
     Args:
         run: one result or several.
@@ -55,7 +56,7 @@ def plot_tip(run: Run | Sequence[Run], *, names: Sequence[str] = (), ax: Axes | 
     if not runs:
         raise ValueError("there is no run to draw")
     ax = axes_for(runs[0], ax)
-    labels = list(names) or ([one.scenario.name for one in runs] if len(runs) > 1 else [""])
+    labels = list(names) or (list(distinct_names(runs)) if len(runs) > 1 else [""])
     for number, (one, label) in enumerate(zip(runs, labels, strict=True)):
         draw(ax, one["tip_displacement"], label, number)
     y = runs[0]["tip_displacement"]
@@ -108,7 +109,7 @@ def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = Non
     """
     expect(run, "Run", "open_run")
     if channel not in run.data or "motor" not in run[channel].dims or not run.data.sizes["motor"]:
-        raise ValueError(f"{run.scenario.name}: this run has no {channel} of motors")
+        raise ValueError(f"{run.name}: this run has no {channel} of motors")
     ax = axes_for(run, ax)
     numbers = run["motor"].values
     for place, number in enumerate(numbers):  # each thinner than those below it, which so remain to be seen
@@ -178,12 +179,12 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
     known = _estimated(run)
     if channel not in known:
         there = ", ".join(known) or "nothing"
-        raise ValueError(f"{run.scenario.name}: {channel} was not estimated; estimated: {there}")
+        raise ValueError(f"{run.name}: {channel} was not estimated; estimated: {there}")
     truth, estimate = run[channel], run[ESTIMATES[channel]]
     title = truth.attrs["long_name"].partition(":")[0]
     if "motor" in truth.dims:
         if motor not in truth["motor"].values:
-            raise ValueError(f"{run.scenario.name}: there is no motor {motor}")
+            raise ValueError(f"{run.name}: there is no motor {motor}")
         truth, estimate, title = truth.sel(motor=motor), estimate.sel(motor=motor), f"{title}, motor {motor}"
     ax = axes_for(run, ax)
     shown = _first_turns(truth)
@@ -276,7 +277,7 @@ def plot_all_observers(run: Run) -> Figure:
     """
     names = _estimated(run)
     if not names:
-        raise ValueError(f"{run.scenario.name}: nothing was estimated in this run")
+        raise ValueError(f"{run.name}: nothing was estimated in this run")
     panels = [partial(plot_observers, channel=name) for name in names if name != "motor_disturbance"]
     numbers = run["motor"].values[:SHOWN_MOTORS] if "motor_disturbance" in names else ()
     panels += [partial(plot_observers, channel="motor_disturbance", motor=k) for k in numbers]
@@ -301,5 +302,5 @@ def _page(run: Run, rows: Sequence[Sequence[Panel]]) -> Figure:
     for number, row in enumerate(rows):
         for column, panel in enumerate(row):
             panel(run, ax=figure.add_subplot(grid[number, column] if len(row) > 1 else grid[number, :]))
-    figure.suptitle(f"{run.scenario.name}: {run.status.name.lower()} at t = {run.end_time:.6g} s", fontsize=12)
+    figure.suptitle(f"{run.name}: {run.status.name.lower()} at t = {run.end_time:.6g} s", fontsize=12)
     return figure

@@ -64,7 +64,7 @@ def check_drawable(run: Run) -> None:
     """
     expect(run, "Run", "open_run")
     if run["time"].size < 2:
-        raise ValueError(f"{run.scenario.name}: the run ended before there was anything to draw")
+        raise ValueError(f"{run.name}: the run ended before there was anything to draw")
 
 
 def new_figure(width: float, height: float) -> Figure:
@@ -118,7 +118,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str], *, force: bool = F
 
 def axis_label(array: xarray.DataArray) -> str:
     """Symbol and unit of a channel, for an axis."""
-    symbol, unit = array.attrs["symbol"], array.attrs["units"]
+    symbol, unit = (array.attrs.get(name, "") for name in ("symbol", "units"))
     parts = [f"${symbol}$" if symbol else "", f"[{unit}]" if unit not in ("", "1") else ""]
     return " ".join(part for part in parts if part)
 

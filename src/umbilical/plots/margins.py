@@ -48,8 +48,8 @@ def plot_margins(report: MarginReport) -> Figure:
     _draw_reflection(report, ax=places[0, 0])
     _draw_nyquist(report, ax=places[0, 1])
     _draw_bode(report, (places[1, 0], places[1, 1]))
-    state = "stable" if report.stable else "not stable"
-    figure.suptitle(f"{report.scenario.name}: {state}, motors at {report.operating_thrust:.4g} N", fontsize=12)
+    state = "unresolved" if report.resolved is False else "stable" if report.stable else "not stable"
+    figure.suptitle(f"{report.name}: {state}, motors at {report.operating_thrust:.4g} N", fontsize=12)
     return figure
 
 

@@ -39,7 +39,7 @@ def plot_shape(run: Run) -> Figure:
         half = max(0.6 * float(np.ptp(place[:, axis])), LEAST_SHARE * float(np.ptp(place[:, 2])))
         dress(ax, xlabel=f"${name}$ [m]", xlim=(middle - half, middle + half))
     views[0].set_ylabel("height $z$ [m]")
-    figure.suptitle(f"{run.scenario.name}: shape of the cable, {run['time'].values[0]:g} to {run.end_time:g} s")
+    figure.suptitle(f"{run.name}: shape of the cable, {run['time'].values[0]:g} to {run.end_time:g} s")
     return figure
 
 
@@ -58,7 +58,7 @@ def plot_tension(run: Run, *, ax: Axes | None = None) -> Axes:
     slack, share = float(run["slack_length"].max()), run.metrics["slack_share"]
     told = f"slack on up to {slack:.3g} m, in {100.0 * share:.3g} % of the time" if share else "never slack"
     ax.set(xlabel=axis_label(pull), ylabel=r"$\sigma = x/l$, 0 at the vessel", xlim=(0.0, None), ylim=(1.0, 0.0))
-    return dress(ax, f"{run.scenario.name}: tension along the cable, {told}")
+    return dress(ax, f"{run.name}: tension along the cable, {told}")
 
 
 def plot_tensions(run: Run, *, ax: Axes | None = None) -> Axes:
@@ -98,9 +98,9 @@ def plot_watch(run: Run, *, ax: Axes | None = None) -> Axes:
     ax.plot(x[0] + radius * np.cos(round_), y[0] + radius * np.sin(round_), "--", color=QUIET, label=name)
     ax.set(xlabel="$x$ [m]", ylabel="$y$ [m]", aspect="equal")
     beside = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-    return dress(ax, f"{run.scenario.name}: the body from above", beside)
+    return dress(ax, f"{run.name}: the body from above", beside)
 
 
 def _of_a_rope(run: Run) -> None:
     if "position" not in run.data:
-        raise ValueError(f'{run.scenario.name}: a run of the string has no shape in space; set model = "rope"')
+        raise ValueError(f'{run.name}: a run of the string has no shape in space; set model = "rope"')

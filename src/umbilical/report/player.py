@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical.analysis.comparison import distinct_names
 from umbilical.errors import expect
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 
@@ -40,12 +41,13 @@ _PANELS = (
 )
 
 
-def player(run: Run, compare: Run | None = None) -> str:
+def player(run: Run, compare: Run | None = None, *, names: Sequence[str] = ()) -> str:
     """Make a page that plays a run, or two side by side on one clock.
 
     Args:
         run: a run of two stored samples or more.
         compare: another one, drawn into the same views.
+        names: what each is called; the names of the runs, numbered where equal, if left out.
 
     Returns:
         A whole HTML page: at most :data:`BUDGET` bytes, with no address of anything outside it.
@@ -59,10 +61,11 @@ def player(run: Run, compare: Run | None = None) -> str:
     (1, True)
     """
     runs = [run] if compare is None else [run, compare]
-    if short := [r.scenario.name for r in runs if r["time"].size < 2]:
+    if short := [r.name for r in runs if r["time"].size < 2]:
         raise ValueError(f"{', '.join(short)}: the run ended before there was anything to play")
     rate = min(RATE, _affordable_rate(runs))
-    reels = _told_apart([_reel(r, rate) for r in runs])
+    called = names or distinct_names(runs)
+    reels = _one_place([_reel(r, name, rate) for r, name in zip(runs, called, strict=True)])
     film = {
         "views": 1 + any(map(_in_space, runs)),
         "runs": reels,
@@ -104,7 +107,7 @@ def show(run: Run, compare: Run | None = None) -> Show:
     <plays crosscheck-none: ... kB; shows itself in a notebook>
     """
     expect(run, "Run", "open_run")
-    names = [r.scenario.name for r in (run, compare) if r is not None]
+    names = distinct_names([r for r in (run, compare) if r is not None])
     return Show(player(run, compare), f"plays {' and '.join(names)}")
 
 
@@ -116,13 +119,13 @@ def _affordable_rate(runs: Sequence[Run]) -> float:
     return 0.9 * BUDGET / each / max(float(r["time"].values[-1]) for r in runs)
 
 
-def _reel(run: Run, rate: float) -> dict[str, Any]:
+def _reel(run: Run, name: str, rate: float) -> dict[str, Any]:
     """What the page needs of one run."""
     kept = _frames(run["time"].values, rate)
     shape = _rope(run, kept) if _in_space(run) else _string(run, kept)
     return shape | {
-        "name": run.scenario.name,
-        "status": f"{run.scenario.name}: {run.status.name} at t = {run.end_time:g} s",
+        "name": name,
+        "status": f"{name}: {run.status.name} at t = {run.end_time:g} s",
         "time": _packed(run["time"].values[kept]),
         "panels": [
             {"title": title, "lines": [{"name": name, "values": _packed(v[kept])} for name, v in lines.items()]}
@@ -131,13 +134,8 @@ def _reel(run: Run, rate: float) -> dict[str, Any]:
     }
 
 
-def _told_apart(reels: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Runs of one name get a number; where a string meets a rope, both places of the ROV share a panel."""
-    if len({reel["name"] for reel in reels}) < len(reels):
-        for number, reel in enumerate(reels, 1):
-            reel |= {
-                key: reel[key].replace(reel["name"], f"{reel['name']} ({number})", 1) for key in ("status", "name")
-            }
+def _one_place(reels: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Where a string meets a rope, both places of the ROV share a panel."""
     places = {reel["panels"][0]["title"] for reel in reels}
     for reel in reels:
         reel["panels"][0]["title"] = _PLACE if _PLACE in places else reel["panels"][0]["title"]

@@ -49,10 +49,15 @@ class MarginReport(ResultFaces):
 
     def __repr__(self) -> str:
         if self.doubt:
-            return f"<MarginReport {self.scenario.name}: unresolved, {self.doubt}>"
+            return f"<MarginReport {self.name}: unresolved, {self.doubt}>"
         lengths = ", ".join(f"{judgement.length:g}" for judgement in self.judgements)
         state = "stable" if self.stable else "unstable"
-        return f"<MarginReport {self.scenario.name}: {state}, resolved {self.resolved}, at {lengths} m>"
+        return f"<MarginReport {self.name}: {state}, resolved {self.resolved}, at {lengths} m>"
+
+    @property
+    def name(self) -> str:
+        """The scenario's name, and the controller's that decides in place of its own law."""
+        return f"{self.scenario.name} with {self.controller}" if self.controller else self.scenario.name
 
     @property
     def stable(self) -> bool:
@@ -61,15 +66,18 @@ class MarginReport(ResultFaces):
 
     @property
     def resolved(self) -> bool | None:
-        """Whether the finest grids agree with the exact cable, and the check; None for fewer than three.
+        """Whether the finest grids agree with the exact cable, and the check.
+
+        None without grids, and for fewer than three that agree, which may do so by chance.
 
         False too where the linearised controller is not what runs.
         """
         if self.doubt:
             return False
-        if len(self.grids) < 3 or self.check is None:
+        if not self.grids or self.check is None:
             return None
-        return resolved(self.grids) and self.check.agrees
+        agree = resolved(self.grids) and self.check.agrees
+        return None if agree and len(self.grids) < 3 else agree
 
     @property
     def limits(self) -> tuple[str, ...]:

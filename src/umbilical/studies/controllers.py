@@ -6,6 +6,8 @@ import sys
 from collections.abc import Callable
 from importlib import import_module
 from inspect import signature
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from umbilical.control.contract import Controller
@@ -13,6 +15,7 @@ from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import validate
+from umbilical.scenario.problems import nearest
 from umbilical.studies.members import arm_data
 from umbilical.studies.study import Arm, Study
 
@@ -48,7 +51,10 @@ def make_controller(path: str | None, scenario: Scenario) -> Any:
     """
     if path is None:
         return None
-    make: Callable[..., Any] = _factory(path)
+    return _made(_factory(path), scenario)
+
+
+def _made(make: Callable[..., Any], scenario: Scenario) -> Any:
     return make() if callable(make) and not signature(make).parameters else make(scenario)
 
 
@@ -84,9 +90,18 @@ def _fails_in_its_arm(study: Study, arm: Arm) -> tuple[str, str, str] | None:
 
 def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] | None:
     """What is allowed, why this is not, and what to do; None where the controller works."""
-    bound, fix = "module:function, which makes a controller from a scenario", "see `Your own controller` in the guide"
+    bound = "module:Class, or module:function that makes a controller from a scenario"
+    fix = "see `Your own controller` in the guide"
     try:
-        controller = make_controller(path, scenario)
+        make = _factory(path)
+    except AttributeError as error:
+        return bound, str(error), nearest(path.partition(":")[2], _public(path))
+    except ModuleNotFoundError as error:
+        return bound, str(error), f"{Path(path).stem}:NAME, in the folder of {Path(path).stem}.py or installed"
+    except Exception as error:
+        return bound, f"importing it fails: {describe_error(error)}", fix
+    try:
+        controller = _made(make, scenario)
         if not isinstance(controller, Controller):
             missing = ", ".join(name for name in ("period", "start", "update") if not hasattr(controller, name))
             return bound, f"it gives {type(controller).__name__}, which has no {missing}", fix
@@ -103,7 +118,17 @@ def _problem(number: int, arm: Arm, bound: str, reason: str, fix: str) -> Proble
 
 
 def _factory(path: str) -> Callable[..., Any]:
-    module, _, name = path.partition(":")
+    return getattr(_module(path), path.partition(":")[2])
+
+
+def _public(path: str) -> list[str]:
+    """What a module has that may be a controller or make one: its own classes and functions."""
+    module = _module(path)
+    found = [(name, value) for name, value in vars(module).items() if callable(value) and not name.startswith("_")]
+    return [name for name, value in found if getattr(value, "__module__", "") == module.__name__]
+
+
+def _module(path: str) -> ModuleType:
     if "" not in sys.path:
         sys.path.append("")  # controllers usually lie in the folder one works in
-    return getattr(import_module(module), name)
+    return import_module(path.partition(":")[0])
