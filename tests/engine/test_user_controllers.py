@@ -62,6 +62,7 @@ def test_an_error_inside_the_controller_names_it_and_the_time() -> None:
     with pytest.raises(ControllerError, match=r"Answering failed at t = 0.021 s: ZeroDivisionError") as caught:
         umbilical.simulate(small("paper"), Answering(answer))
     assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    assert "(controllers.py, line " in str(caught.value)
 
 
 def test_the_samples_up_to_a_failure_are_kept() -> None:

@@ -154,7 +154,17 @@ def test_the_finest_grid_must_agree_and_the_next_be_near():
     assert resolved(at[:3])
     assert not resolved(at[1:])
     assert not resolved((at[0], at[0], at[2]))
-    assert not resolved(at[1:3])
+    assert resolved(at[1:3])
+    assert not resolved(at[3:])
+
+
+def test_few_grids_that_disagree_leave_margins_unresolved_and_few_that_agree_prove_nothing():
+    found = report(umbilical.load("ringdown"), [100.0], elements=(8, 12))
+    close, far = (replace(found.grids[-1], differs=Difference("delay", 1.0, 1.0, size)) for size in (0.01, 0.3))
+    assert replace(found, grids=(close,)).resolved is None
+    apart = replace(found, grids=(far,))
+    assert (apart.resolved, conclusion(apart).decision) == (False, "UNRESOLVED")
+    assert f"{far.elements} elements" in conclusion(apart).headline
 
 
 def test_a_controller_in_the_place_of_lengths_is_told_where_it_goes():

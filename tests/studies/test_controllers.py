@@ -118,7 +118,7 @@ def test_all_that_is_wrong_comes_at_once():
 def test_a_controller_that_ends_the_program_is_a_failed_member(engine):
     result = sweep(study_of("laws:late", "laws:all_late"), engine=engine, trust=True)
     assert result["status"].values.tolist() == [[3, 3], [0, 3]]
-    assert str(result["reason"].values[0, 0]) == "Late failed at t = 0.006 s: SystemExit: 3"
+    assert str(result["reason"].values[0, 0]).startswith("Late failed at t = 0.006 s: SystemExit: 3 (laws.py, line ")
     assert result.lost == ("laws:all_late",)
 
 

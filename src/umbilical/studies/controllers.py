@@ -98,7 +98,9 @@ def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] 
         return bound, str(error), nearest(path.partition(":")[2], _public(path))
     except ModuleNotFoundError as error:
         return bound, str(error), f"{Path(path).stem}:NAME, in the folder of {Path(path).stem}.py or installed"
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # sys.exit in a module must not end us
         return bound, f"importing it fails: {describe_error(error)}", fix
     try:
         controller = _made(make, scenario)
