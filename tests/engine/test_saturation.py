@@ -11,7 +11,7 @@ import umbilical
 from umbilical.control.contract import Command
 from umbilical.engine.saturation import thrust_capability
 from umbilical.engine.simulate import measure
-from umbilical.plant.motors import make_motors, shaft_acceleration
+from umbilical.plant.motors import make_motors, net_torque
 from umbilical.relations.formulas import motor_constants
 from umbilical.studies.rows import NAMES
 
@@ -101,7 +101,7 @@ def test_capability_is_the_steady_thrust_at_the_limits() -> None:
     for k, motor in enumerate(scenario.motors):
         speed = np.sqrt(thrust_capability(scenario.replace({"motors": [motor]})) / abs(motor.thrust_coefficient))
         current = (8.0 - motor.back_emf_constant * speed) / motor.resistance
-        assert shaft_acceleration(motors[k], speed, current, 0.0) == pytest.approx(0.0, abs=1e-9)
+        assert net_torque(motors[k], speed, current, 0.0) == pytest.approx(0.0, abs=1e-9)
         total += abs(motor.thrust_coefficient) * speed**2
     assert thrust_capability(scenario) == pytest.approx(total)
     assert thrust_capability(umbilical.load("paper")) == np.inf

@@ -186,17 +186,17 @@ def watch_slopes(state: PlantState, slopes: np.ndarray) -> bool:
     n = slopes.size
     scale = 1.0 / state.now[0].outside.length
     x0, x1, x2, x3, x4 = x[0], x[1], x[2], x[3], x[4]
+    steep = 0
     for e in range(n):
         largest = max(max(max(abs(x0[e]), abs(x1[e])), max(abs(x2[e]), abs(x3[e]))), abs(x4[e]))
         # A maximum may lose what is not a number; the product with zero does not, nor does the comparison.
         slope = scale * largest + 0.0 * (x0[e] + x1[e] + x2[e] + x3[e] + x4[e])
-        slopes[e] = slopes[e] if slope <= slopes[e] else slope
+        kept = slopes[e] if slope <= slopes[e] else slope
+        slopes[e] = kept
+        steep += 0 if kept <= STEEPEST else 1
     tip = abs(state.now[0].ends.tip_slope)
     slopes[n - 1] = slopes[n - 1] if tip <= slopes[n - 1] else tip
-    steep = 0
-    for e in range(n):
-        steep += 0 if slopes[e] <= STEEPEST else 1
-    return steep == 0
+    return steep == 0 and tip <= STEEPEST
 
 
 @glue

@@ -267,7 +267,7 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
     average.payload_force = given.mean(w, now.outside.payload_force, start.payload_force, before.payload_force)
     if plant.ideal:
         average.thrust = start.thrust
-    now.before = start
+    before.thrust, before.payload_force = start.thrust, start.payload_force  # a record as a whole goes byte by byte
     now.ends.tip_velocity += dt * (average.thrust + average.payload_force) / plant.cable.payload_inertia
 
 

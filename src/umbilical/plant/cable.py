@@ -213,11 +213,12 @@ def look_at_ends(cable: Cable, x: np.ndarray, ends: Ends, moment: Moment) -> Non
     foot = sqrt(tension(0.0, moment.net, moment.across) / cable.line_inertia)
     head = sqrt(tension(length, moment.net, moment.across) / cable.line_inertia)
     ends.slip = slip
-    inside = x[4, n - 1] / length
+    scale = 1.0 / length
+    inside = x[4, n - 1] * scale
     missed = ends.tip_velocity - x[4, 2 * n - 1]
     # The same as (V - W + c p)/(c - tau) with tau = -slip, written so that it is free of rounding where slip is 0.
     ends.tip_slope = inside + (missed - slip * inside) / (foot + slip)
-    ends.vessel_slope = (x[0, n] - moment.vessel + head * x[0, 0] / length) / (head + (moment.speed - slip))
+    ends.vessel_slope = (x[0, n] - moment.vessel + head * x[0, 0] * scale) / (head + (moment.speed - slip))
 
 
 @kernel
@@ -227,12 +228,13 @@ def meet_ends(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray
     length, slip = moment.length, moment.slip
     foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
     head = tension(length, moment.net, moment.across) / cable.line_inertia
+    scale = 1.0 / length
     enters = moment.speed - slip
     top, tip = moment.vessel + enters * ends.vessel_slope, ends.tip_velocity - slip * ends.tip_slope
     faces[FLOW, 0] = moment.vessel
-    faces[PULL, 0] = (head * ends.vessel_slope - enters * top) / length
+    faces[PULL, 0] = (head * ends.vessel_slope - enters * top) * scale
     faces[FLOW, n] = ends.tip_velocity
-    faces[PULL, n] = (foot * ends.tip_slope + slip * tip) / length
+    faces[PULL, n] = (foot * ends.tip_slope + slip * tip) * scale
     top_step, tip_step = x[0, n] - top, x[4, 2 * n - 1] - tip
     losses[0] = -cable.line_inertia * (sqrt(head) + enters) * top_step * top_step
     losses[n] = -cable.line_inertia * (sqrt(foot) + slip) * tip_step * tip_step
