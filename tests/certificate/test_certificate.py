@@ -81,10 +81,10 @@ def test_a_weight_that_follows_the_tension_moves_the_jerk_in_time_and_does_not_a
     found = best_weights(loop, motion)
     assert found is not None
     plain = rates(loop, motion, *found)
-    best = {nu: float((plain - nu * motion.jerk).min()) for nu in (0.0, 1.0 / 3.0, 1.0)}
+    best = {nu: float((plain - nu * motion.relative_jerk).min()) for nu in (0.0, 1.0 / 3.0, 1.0)}
     assert best[0.0] < 0.0 < best[1.0 / 3.0], "a third of it certifies a smaller gain"
     assert best[1.0] < best[0.0], "following the tension wholly makes it worse"
-    toll = np.trapezoid(motion.jerk.ravel(), motion.t.ravel())
+    toll = np.trapezoid(motion.relative_jerk.ravel(), motion.t.ravel())
     assert abs(toll) < 1e-4 * np.abs(np.diff(np.log(1.0 - motion.a.ravel() / loop.g))).sum(), (
         "over the run its integral is ln((g - a(0))/(g - a(end))), here 0"
     )
@@ -97,8 +97,8 @@ def test_the_ends_of_the_cable_decide() -> None:
     assert found is not None
     formula = rates(loop, motion, *found)
     for slab in range(0, motion.t.shape[0], 6):
-        at = float(motion.l[slab, 0]), float(motion.v[slab, 0]), float(motion.a[slab, 0]), float(motion.jerk[slab, 0])
-        pairs = [matrices(loop, *found, x, at) for x in np.linspace(0.0, at[0], 200)]
+        length, v, a, nu = (float(x[slab, 0]) for x in (motion.l, motion.v, motion.a, motion.relative_jerk))
+        pairs = [matrices(loop, *found, x, (length, v, a, nu)) for x in np.linspace(0.0, length, 200)]
         lowest = min(2.0 * eigh(m, n, eigvals_only=True)[0] for n, m in pairs)
         assert lowest == pytest.approx(formula[slab, 0], rel=1e-9)
 

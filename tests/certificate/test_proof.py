@@ -12,10 +12,10 @@ from mpmath.ctx_iv import MPIntervalContext
 import umbilical
 from tests.support.certificates import GAIN, fixed, hauled_in
 from umbilical.certificate import Certificate, Proof, Weights
-from umbilical.certificate.proof import _least as least
+from umbilical.certificate.conditions import ALONG, case_of
 from umbilical.certificate.proof import prove
 from umbilical.certificate.proof_motion import motion_over
-from umbilical.certificate.setting import loop_of, slab_edges
+from umbilical.certificate.setting import Motion, loop_of, slab_edges
 from umbilical.plant import winch as laws
 from umbilical.scenario.winch import ConstantLength, ConstantSpeed, Cosine, Quintic, TabulatedLength, Trapezoid, Winch
 
@@ -159,10 +159,15 @@ def test_a_winch_faster_than_the_waves_proves_nothing(paying_out: Certificate) -
         assert ("wave" in opened(proof)) is wave
 
 
-def test_what_is_least_at_an_end_is_least_there() -> None:
-    """A line minus a positive multiple of a line squared, against a fine look."""
-    rng, s = np.random.default_rng(3), np.linspace(0.0, 1.0, 1001)
+@pytest.mark.parametrize("name", ["K0", "K5"])
+def test_what_holds_at_both_ends_holds_between(paying_out: Certificate, name: str) -> None:
+    """K0 and K5 at a point between, as the end of a cable cut off there: nowhere less than at both ends."""
+    rng, loop, motion = np.random.default_rng(3), paying_out.loop, Motion(0.0, 400.0, 0.5, 0.1, 9.0, 0.2)
     for _ in range(50):
-        ends, line, factor = rng.normal(size=2), rng.normal(size=2), rng.uniform(0.1, 3.0)
-        values = ends[0] + s * (ends[1] - ends[0]) - factor * (line[0] + s * (line[1] - line[0])) ** 2
-        assert min(least(tuple(ends), tuple(line), factor)) == pytest.approx(values.min())
+        weights = Weights(*rng.normal(0.0, (0.01, 3.0, 1.0)))
+        rate = float(rng.normal(0.0, 0.02))
+        at_ends = np.reshape(list(ALONG[name](case_of(loop, weights, motion), rate)), (2, -1))
+        for x in rng.uniform(0.0, motion.l, 20):
+            cut = weights._replace(vessel=weights.vessel + weights.cross * x), motion._replace(l=motion.l - x)
+            here = np.reshape(list(ALONG[name](case_of(loop, *cut), rate)), (2, -1))[0]
+            assert (here >= at_ends.min(axis=0) - 1e-9 * np.abs(at_ends).max(axis=0)).all()

@@ -183,7 +183,7 @@ def _winch(loop: Loop, motion: Motion, changes: dict[str, float], beta: float) -
 
 
 def _what_the_winch_does(motion: Motion) -> str:
-    fastest_in, fastest_out, jerk = -float(motion.v.min()), float(motion.v.max()), float(motion.jerk.min())
+    fastest_in, fastest_out, jerk = -float(motion.v.min()), float(motion.v.max()), float(motion.relative_jerk.min())
     parts = []
     if fastest_in > 0.0:
         parts.append(f"hauling in at {fastest_in:.3g} m/s")

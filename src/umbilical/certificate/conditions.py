@@ -1,22 +1,103 @@
-"""Conditions K0 to K6 in ordinary numbers, at sampled instants, with gam = 1.
+"""Conditions K0 to K6 with gam = 1, written once for numbers, for arrays of samples and for intervals.
 
-Q stands for lam q/gam = lam x0/gam + (lam/gam) x, a velocity. At a given instant everything in K0 and K5 is a
-quadratic of x that opens downward (docs/certificates.md proves it), so the two ends of the cable decide.
+Q stands for lam q/gam = lam x0/gam + (lam/gam) x, a velocity. At a given instant everything in K0 and K5 is a line in
+x, or a line minus a positive multiple of the square of one (docs/certificates.md proves it), so the two ends of the
+cable decide.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from umbilical.certificate.records import Inequality, Weights
 from umbilical.certificate.setting import Loop, Motion
-from umbilical.relations.tension import inertial_tension, tension, tension_gain
+from umbilical.relations.tension import Hanging, fading_tension, tension, tension_gain
 
 Array = np.ndarray
-Real = Any  # a float or an array
+Real = Any  # a float, an array or an interval
+
+
+class Case(NamedTuple):
+    """What the conditions are about, as numbers, arrays or intervals.
+
+    Attributes:
+        loop, weights: constants of the loop and of V.
+        hanging: what hangs on the cable.
+        length, v, net, jerk: of the winch: l, v, g - a and a'.
+        reach: lam (l + x0)/gam.
+        top, foot: tension at the vessel and at the ROV.
+    """
+
+    loop: Loop
+    weights: Weights
+    hanging: Hanging
+    length: Real
+    v: Real
+    net: Real
+    jerk: Real
+    reach: Real
+    top: Real
+    foot: Real
+
+
+def case_of(loop: Loop, weights: Weights, motion: Motion) -> Case:
+    """The case of a winch in motion; loop, weights and motion are of one kind of numbers."""
+    hung, length, net = loop.hanging, motion.l, motion.net
+    reach = weights.vessel + weights.cross * length
+    top, foot = tension(length, net, hung), tension(0.0 * length, net, hung)
+    return Case(loop, weights, hung, length, motion.v, net, motion.jerk, reach, top, foot)
+
+
+def sides(case: Case, rate: Real, vessel_moves: bool) -> Iterator[tuple[str, str, Real, Real, str, float]]:
+    """The conditions with one number on each side: name, equation, left, right, unit, x/l; "<=" where equality holds.
+
+    K0 and K5 hold for all x and are in :data:`ALONG`.
+    """
+    loop, reach, speed_squared = case.loop, case.reach, case.foot / case.loop.rho
+    pull, eta = loop.rho * speed_squared, case.weights.boundary
+    carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
+    yield "wave", "v^2 < T_0/rho", case.v**2, case.top / loop.rho, "m2/s2", 0.0
+    yield "K1", "lam (l + x0)/gam <= T_l/(beta rho)", reach, speed_squared / loop.beta, "m/s", 1.0
+    yield "K2", "lam (l + x0)/gam <= beta", reach, loop.beta, "m/s", 1.0
+    yield "K3", "T_l/(2 beta) < eta k_a/gam", pull / (2.0 * loop.beta), eta * loop.k_a, "N s/m", 1.0
+    yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - case.v, case.weights.vessel, "m/s", 0.0
+    yield "K6", "th <= 2 (eta k_a - gam T_l/(2 beta))/(eta m)", rate, carried, "1/s", 1.0
+    if loop.k_s is not None:
+        yield "K6", "th <= k_s", rate, loop.k_s, "1/s", 1.0
+
+
+def _weights(case: Case, rate: Real) -> Iterator[Real]:
+    """lam, eta and everything else that makes V a sum of squares; K0 then makes V1 + V2 one."""
+    of = case.loop
+    yield from (x for x in (of.rho, of.m, of.beta, of.k_a, of.k_s, of.vs) if x is not None)
+    yield from (case.weights.cross, case.weights.boundary, case.foot)
+
+
+def _k0(case: Case, rate: Real) -> Iterator[Real]:
+    """T - rho Q^2 at both ends; the line density, which *weights* holds above 0, makes it concave."""
+    for pull, q in ((case.top, case.weights.vessel), (case.foot, case.reach)):
+        yield pull - case.loop.rho * q**2
+
+
+def _k5(case: Case, rate: Real) -> Iterator[Real]:
+    """A, C and AC - B^2 of M - th/2 N at both ends: A does not depend on x, B and C are lines."""
+    for a, b, c in (_entries(case, end, rate) for end in (0, 1)):
+        yield from (a, c, a * c - b**2)  # without A and C, A = B = 0 would let any C pass
+
+
+ALONG: dict[str, Callable[[Case, Real], Iterator[Real]]] = {"weights": _weights, "K0": _k0, "K5": _k5}
+"""Conditions for all x at once: what must not be negative, in K5, or must be positive."""
+
+
+def _entries(case: Case, end: int, rate: Real) -> tuple[Real, Real, Real]:
+    """Entries 11, 12, 22 of M - th/2 N at the vessel, 0, or the ROV, 1."""
+    rho, c, lam, net = case.loop.rho, case.loop.c, case.weights.cross, case.net
+    above, q = ((case.length, case.weights.vessel), (0.0 * case.length, case.reach))[end]
+    far = fading_tension(lam - rate, above, net, case.jerk, case.hanging) + tension_gain(q, net, case.hanging)
+    return c + rho * (lam - rate) / 2, (q * (c - rate * rho) - rho * case.v * lam) / 2, far / 2
 
 
 class Extent(NamedTuple):
@@ -56,30 +137,22 @@ def largest_cross(motion: Motion, room: Extent, vessel: Real) -> Array:
 def rates(loop: Loop, motion: Motion, cross: Real, vessel: Real) -> Array:
     """Best th that K5 allows at every sample, 1/s; minus infinity where K0 fails.
 
-    The smaller root of ``det(M - th/2 N) = 0`` at both ends of the cable. ``cross`` and ``vessel`` broadcast
-    against the arrays of ``motion``.
+    ``cross`` and ``vessel`` broadcast against the arrays of ``motion``.
     """
-    return np.minimum(*(_rate_at(loop, motion, cross, vessel, end) for end in (0.0, 1.0)))
+    return np.minimum(*_rates_at_ends(case_of(loop, Weights(cross, vessel, np.nan), motion)))
 
 
-def _rate_at(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float) -> Array:
-    n11, n12, n22, m11, m12, m22 = _matrices(loop, motion, cross, vessel, sigma)
-    a, b, c = n11 * n22 - n12 * n12, m11 * n22 + m22 * n11 - 2.0 * m12 * n12, m11 * m22 - m12 * m12
-    root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        smaller = np.where(b > 0.0, 2.0 * c / (b + root), (b - root) / (2.0 * a))
-    return np.where(a > 0.0, 2.0 * smaller, -np.inf)
-
-
-def _matrices(loop: Loop, motion: Motion, cross: Real, vessel: Real, sigma: float) -> tuple[Array, ...]:
-    """Entries 11, 12, 22 of N, then of M, at one end of the cable."""
-    rho, net, hung, above = loop.rho, motion.net, loop.hanging, (1.0 - sigma) * motion.l
-    q = vessel + cross * sigma * motion.l
-    pull, changing = tension(above, net, hung), inertial_tension(above, net, hung)
-    m11 = loop.c + 0.5 * rho * cross
-    m12 = 0.5 * (loop.c * q - rho * motion.v * cross)
-    m22 = 0.5 * (cross * pull + tension_gain(q, net, hung) + changing * motion.jerk)
-    return rho + 0.0 * q, rho * q, pull, m11 + 0.0 * q, m12, m22
+def _rates_at_ends(case: Case) -> Iterator[Array]:
+    """The smaller root of ``det(M - th/2 N) = 0`` at the vessel, then at the ROV."""
+    rho = case.loop.rho
+    for end, pull, q in ((0, case.top, case.weights.vessel), (1, case.foot, case.reach)):
+        m11, m12, m22 = _entries(case, end, 0.0)
+        n12 = rho * q
+        a, b, c = rho * pull - n12 * n12, m11 * pull + m22 * rho - 2.0 * m12 * n12, m11 * m22 - m12 * m12
+        root = np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            smaller = np.where(b > 0.0, 2.0 * c / (b + root), (b - root) / (2.0 * a))
+        yield np.where(a > 0.0, 2.0 * smaller, -np.inf)
 
 
 def rate_limit(loop: Loop) -> float:
@@ -122,45 +195,15 @@ def conditions(
 def _conditions(
     loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool
 ) -> Iterator[tuple[Any, ...]]:
-    reach, speed_squared = weights.vessel + weights.cross * motion.l, _wave_speed_squared(loop, motion)
-    ends = [_rate_at(loop, motion, weights.cross, weights.vessel, end) for end in (0.0, 1.0)]
-    tighter = float(ends[1].min() < ends[0].min())
-    state = State(motion.v, reach, speed_squared, tension(motion.l, motion.net, loop.hanging) / loop.rho)
-    wave, *others = sides(loop, weights, state, float(np.nan_to_num(proved).max()), vessel_moves)
+    case = case_of(loop, weights, motion)
+    ends = tuple(_rates_at_ends(case))
+    wave, *others = sides(case, float(np.nan_to_num(proved).max()), vessel_moves)
     yield wave
-    yield "K0", "lam q/gam < sqrt(T/rho)", reach, np.sqrt(speed_squared), "m/s", 1.0
+    yield "K0", "lam q/gam < sqrt(T/rho)", case.reach, np.sqrt(case.foot / loop.rho), "m/s", 1.0
     yield from others[:4]
+    tighter = float(ends[1].min() < ends[0].min())
     yield "K5", "0 < th with M - th/2 N >= 0", 0.0, _lowered(np.minimum(*ends), proved), "1/s", tighter
     yield from others[4:]
-
-
-class State(NamedTuple):
-    """What the winch does, as numbers, arrays or intervals: its speed v, lam (l + x0)/gam, T/rho at ROV and vessel."""
-
-    v: Real
-    reach: Real
-    speed_squared: Real
-    top_squared: Real
-
-
-def sides(
-    loop: Loop, weights: Weights, state: State, rate: Real, vessel_moves: bool
-) -> Iterator[tuple[str, str, Real, Real, str, float]]:
-    """The conditions with one number on each side: name, equation, left, right, unit, x/l; "<=" where equality holds.
-
-    Written once for what is sampled and for the intervals of the proof. K0 and K5, which hold for all x, are not here.
-    """
-    v, reach, speed_squared, top_squared = state
-    pull, eta = loop.rho * speed_squared, weights.boundary
-    carried = 2.0 * (eta * loop.k_a - pull / (2.0 * loop.beta)) / (eta * loop.m)
-    yield "wave", "v^2 < T_0/rho", v**2, top_squared, "m2/s2", 0.0
-    yield "K1", "lam (l + x0)/gam <= T_l/(beta rho)", reach, speed_squared / loop.beta, "m/s", 1.0
-    yield "K2", "lam (l + x0)/gam <= beta", reach, loop.beta, "m/s", 1.0
-    yield "K3", "T_l/(2 beta) < eta k_a/gam", pull / (2.0 * loop.beta), eta * loop.k_a, "N s/m", 1.0
-    yield "K4", f"-v {'<' if vessel_moves else '<='} lam x0/gam", 0.0 - v, weights.vessel, "m/s", 0.0
-    yield "K6", "th <= 2 (eta k_a - gam T_l/(2 beta))/(eta m)", rate, carried, "1/s", 1.0
-    if loop.k_s is not None:
-        yield "K6", "th <= k_s", rate, loop.k_s, "1/s", 1.0
 
 
 def _lowered(sampled: Array, proved: Array) -> Array:

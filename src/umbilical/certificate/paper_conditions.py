@@ -43,7 +43,7 @@ def _conditions(
     yield (
         "lam/2 [T - l c/delta_2 - x T_x - l delta_1] - gam/2 DT/Dt", "N/s",
         0.5 * lam * (pull - length * c * young + tension_gain(x, net, hung) - (QUARTER * foot if loaded else 0.0))
-        + 0.5 * inertial_tension(length - x, net, hung) * motion.jerk,
+        + 0.5 * inertial_tension(length - x, net, hung) * motion.relative_jerk,
     )  # fmt: skip
     yield (
         "eta [k_a - |c - k_a| sigma_1 - beta m sigma_2] - gam T_l/(2 beta)", "N s/m",

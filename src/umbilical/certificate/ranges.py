@@ -58,7 +58,7 @@ def _growth(ctx: Any, loop: Loop, winch: Winch, weights: Weights, instant: float
     """k - 1 at one instant, by the laws that hold before and after it; 0 where the tension does not grow."""
     _, _, old, _ = motion_over(ctx, winch, instant, instant, before)
     length, _, new, _ = motion_over(ctx, winch, instant, instant, after)
-    net, hung = net_gravity(loop.g, old), loop.hanging_in(ctx.mpf)
+    net, hung = net_gravity(loop.g, old), loop.over(ctx).hanging
     grown = relative_jerk(old - new, net)
     if grown.b <= 0:
         return 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from umbilical.plant import winch as laws
 from umbilical.plant.exogenous import variation_of
 from umbilical.plant.seaway import heaving
 from umbilical.plant.top import top_within
-from umbilical.relations.tension import Hanging, hanging, net_gravity
+from umbilical.relations.tension import Hanging, hanging, net_gravity, relative_jerk
 from umbilical.relations.water import in_water, line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.winch import ConstantLength, Cosine, Winch
@@ -55,23 +55,34 @@ class Loop(NamedTuple):
     @property
     def hanging(self) -> Hanging:
         """What hangs on the cable."""
-        return self.hanging_in(float)
+        return hanging(self.m, self.rho, self.g, self.weight, self.wet)
 
-    def hanging_in(self, number: Callable[[float], Any]) -> Hanging:
-        """The same in another kind of numbers: with intervals, free of rounding."""
-        given = (None if value is None else number(value) for value in (self.weight, self.wet))
-        return hanging(number(self.m), number(self.rho), number(self.g), *given)
+    def over(self, ctx: Any) -> Loop:
+        """The same constants as intervals of a context of mpmath, exactly as they are stored."""
+        exact: list[Any] = [None if value is None else ctx.mpf(value) for value in self]
+        return Loop(*exact)
 
 
 class Motion(NamedTuple):
-    """The winch at sampled instants; each an array (slabs, samples): t, l, v, a, g - a and a'/(g - a)."""
+    """The winch at sampled instants, arrays (slabs, samples), or over an interval of time: t, l, v, a, g - a and a'."""
 
-    t: np.ndarray
-    l: np.ndarray  # noqa: E741 - the paper's letter
-    v: np.ndarray
-    a: np.ndarray
-    net: np.ndarray
-    jerk: np.ndarray
+    t: Any
+    l: Any  # noqa: E741 - the paper's letter
+    v: Any
+    a: Any
+    net: Any
+    jerk: Any
+
+    @property
+    def relative_jerk(self) -> Any:
+        """a'/(g - a), 1/s."""
+        return relative_jerk(self.jerk, self.net)
+
+
+def motion_of(t: Any, winch: Any, gravity: Any) -> Motion:
+    """The motion at t of what has a length, a speed, an acceleration and a jerk."""
+    net = net_gravity(gravity, winch.acceleration)
+    return Motion(t, winch.length, winch.speed, winch.acceleration, net, winch.jerk)
 
 
 def loop_of(scenario: Scenario) -> Loop:
@@ -155,8 +166,7 @@ def slab_edges(winch: Winch, duration: float) -> np.ndarray:
 def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Motion:
     """The winch at :data:`SAMPLES` instants of each slab; limits at its ends are those from inside."""
     t = np.linspace(edges[:-1], edges[1:], SAMPLES, axis=1)
-    top = top_within(winch, t)
-    return Motion(t, top.length, top.speed, top.acceleration, top.net_gravity(gravity), top.relative_jerk(gravity))
+    return motion_of(t, top_within(winch, t), gravity)
 
 
 def stopped(motion: Motion, gravity: float) -> Motion:
