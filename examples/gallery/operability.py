@@ -8,11 +8,10 @@ Largest significant wave height at which the cable stays taut, over depth and wa
 import numpy as np
 
 import umbilical
-from umbilical.screening.criteria import parse_criterion
 
 found = umbilical.operate(
     umbilical.load_operation("work-class"),
-    [parse_criterion("slack=1e-2/3h")],
+    ["slack=1e-2/3h"],
     depth=np.linspace(500.0, 3000.0, 6),
     period=np.linspace(6.0, 12.0, 7),
     heading=np.radians([135.0, 180.0]),

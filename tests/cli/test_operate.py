@@ -73,3 +73,24 @@ def test_what_the_rope_cannot_confirm_is_refused(umbilical):
 
 def test_the_headline_of_the_json_is_the_verdicts(umbilical):
     assert "is NOT workable" in umbilical(*ONE, "--height", "2.7", "--json").document()["headline"]
+
+
+def test_a_table_says_what_it_leaves_out_and_where_only_the_steepest_sea_ends_it(umbilical):
+    whole = umbilical("operate", "work-class", "--depth", "200,400", "--heading", "135").out
+    assert "Tp 10 s" in whole
+    assert "shown:" not in whole
+    part = umbilical("operate", "work-class", "--depth", "100:400:14", "--period", "5:16:12", "--heading", "135").out
+    assert "shown: 11 x 11 of 14 depths x 12 periods" in part
+    assert ">5.58" in whole
+    assert "no limit below the steepest sea" in whole
+
+
+def test_operations_are_listed_shown_and_copied_like_scenarios(umbilical, tmp_path):
+    assert "work-class " in umbilical("presets").out.partition("operations")[2]
+    mine = tmp_path / "mine.toml"
+    assert "umbilical operate" in umbilical("presets", "--copy", "work-class", mine).out
+    assert "payload.wet_weight" in umbilical("show", mine).out
+    assert umbilical("show", "work-class", "--json").document()["operation"]["name"] == "work-class"
+    refused = umbilical("run", mine)
+    assert refused.code == 2
+    assert "umbilical operate" in refused.err

@@ -12,6 +12,7 @@ import pytest
 from umbilical import load, open_run, preset_names
 from umbilical.engine.warming import PARTS
 from umbilical.scenario.inventory import inventory
+from umbilical.screening import operation_names
 from umbilical.studies.load import study_names
 
 
@@ -41,7 +42,7 @@ def test_show_a_scenario_with_what_is_assumed_and_why(umbilical):
 @pytest.mark.parametrize("name", preset_names())
 def test_every_marked_value_of_a_preset_is_in_its_inventory(name):
     scenario = load(name)
-    entries = inventory(scenario)
+    entries = inventory(scenario, scenario.assumed)
     for key in scenario.assumed:
         inside = [entry for entry in entries if entry.key == key or entry.key.startswith(key + ".")]
         assert all(entry.assumed for entry in inside)
@@ -104,7 +105,11 @@ def test_plot_of_what_a_run_does_not_have(umbilical, stored, tmp_path):
 def test_presets_are_listed_and_printed(umbilical):
     listed = umbilical("presets").out
     first = [line.split()[0] for line in listed.splitlines() if line]
-    assert first == ["scenarios", *preset_names(), "studies", *study_names()]
+    assert first == [
+        *("scenarios,", *preset_names()),
+        *("studies,", *study_names()),
+        *("operations,", *operation_names()),
+    ]
     assert umbilical("presets", "paper-dead").out.startswith('extends = "paper"')
 
 

@@ -73,5 +73,5 @@ def test_a_rough_sea_on_the_rope_passes_what_a_calm_one_keeps() -> None:
     )
     assert confirmation.conclusion(calm).decision == "HOLDS"
     assert calm.confirmed_height > 0.5
-    assert [each.passed for each in rough.reached] == [3, 0, 3]
+    assert [each.exceeded for each in rough.reached] == [3, 0, 3]
     assert confirmation.conclusion(rough).decision == "DOES_NOT_HOLD"

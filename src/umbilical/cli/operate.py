@@ -80,11 +80,11 @@ def operate(
     import numpy as np
 
     from umbilical.screening import operate as limits
-    from umbilical.screening.criteria import parse_criterion
+    from umbilical.screening.criteria import USUAL, read_criteria
 
     check_target(plot, PICTURES, force=force)
     check_target(out, ("nc",), force=force)
-    criteria = [parse_criterion(text) for text in criterion or ["slack=1e-2/3h"]]
+    criteria = read_criteria(criterion or USUAL)
     axes = {
         "depth": values(depth, "--depth", 1.0, 12000.0),
         "period": values(period, "--period", 2.0, 30.0),
@@ -263,16 +263,23 @@ def _report(found: Operability) -> list[str]:
     import numpy as np
 
     rows, columns = _thinned(found.depth.size), _thinned(found.period.size)
-    worst = found.limit.min(axis=2)
+    worst, steepest = found.limit.min(axis=2), found.steepest
     head = ("limiting Hs [m] at", *(f"Tp {found.period[j]:.3g} s" for j in columns), "T1")
     body = [
-        (f"{found.depth[i]:.4g} m", *(f"{worst[i, j]:.2f}" for j in columns), f"{found.axial_period[i]:.2f} s")
+        (
+            f"{found.depth[i]:.4g} m",
+            *(f"{'>' if steepest[i, j] else ''}{worst[i, j]:.2f}" for j in columns),
+            f"{found.axial_period[i]:.2f} s",
+        )
         for i in rows
     ]
     headings = ", ".join(f"{angle:.0f}" for angle in np.degrees(found.heading))
+    shown, all_ = f"{len(rows)} x {len(columns)}", f"{found.depth.size} depths x {found.period.size} periods"
     return [
         table([head, *body], right=list(range(1, len(head)))),
-        f"  worst of the headings {headings} deg",
+        f"  worst of the headings {headings} deg; T1: longest axial period of cable and body",
+        *("  >: no limit below the steepest sea of the period, a seventh of its wavelength",) * bool(steepest.any()),
+        *(f"  shown: {shown} of {all_}; --json and --out have all",) * (worst.size > len(rows) * len(columns)),
         *(f"  note: {notice}" for notice in found.notices()),
         f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}",
     ]
@@ -296,7 +303,7 @@ def _descents(found: Lowering) -> list[str]:
     ]
 
 
-def _thinned(count: int, most: int = 10) -> list[int]:
+def _thinned(count: int, most: int = 11) -> list[int]:
     import numpy as np
 
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)).tolist()

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
 from umbilical.cli.options import Force
 from umbilical.cli.output import print_result
 from umbilical.cli.targets import SCHEMA_LINE, schema_beside
+from umbilical.errors import FileError
 from umbilical.faces.text import table
+
+if TYPE_CHECKING:
+    from umbilical.scenario.presets import Presets
 
 
 def presets(
@@ -21,7 +25,7 @@ def presets(
     ] = None,
     force: Force = False,
 ) -> None:
-    """List, print or copy the scenarios and studies that come along.
+    """List, print or copy the scenarios, studies and operations that come along.
 
     \b
     examples
@@ -29,22 +33,22 @@ def presets(
       umbilical presets paper-dead
       umbilical presets --copy paper my.toml
       umbilical presets --copy paper-robustness my-study.toml
+      umbilical presets --copy work-class my-operation.toml
     """
     if copy:
         from umbilical import files
-        from umbilical.studies.load import study_names
 
         source, target = copy
-        study = source in study_names()
-        text = _marked(_text(source), source, target)
-        written = files.write(target, (text if study else SCHEMA_LINE + text).encode(), force=force)
-        beside = {} if study else schema_beside(written)
+        verb, text = _find(source)
+        text = _marked(text, source, target)
+        scenario = verb == "run"
+        written = files.write(target, (SCHEMA_LINE + text if scenario else text).encode(), force=force)
+        beside = schema_beside(written) if scenario else {}
         lines = [f"copied: {written}", *(f"  {role} for editors: {path}" for role, path in beside.items())]
         print_result("\n".join(lines))
-        verb = "sweep" if study else "run"
         print_result(f"  next: change it; `umbilical show {target}`; `umbilical {verb} {target}`")
     else:
-        print_result(_text(name) if name else _descriptions())
+        print_result(_find(name)[1] if name else _descriptions())
 
 
 def _marked(text: str, source: str, target: Path) -> str:
@@ -103,23 +107,34 @@ def _purpose(path: Path) -> str:
     return (get_docstring(parse(text)) or "").partition("\n")[0]
 
 
-def _text(name: str) -> str:
-    """TOML text of a scenario or study that comes along; FileError if there is none."""
-    from umbilical.library import preset_text
-    from umbilical.studies.load import study_names, study_text
+def _kinds() -> dict[str, tuple[str, Presets]]:
+    """What comes along, by what it is: the command that takes it, and where it is."""
+    from umbilical.library.load import PRESETS
+    from umbilical.screening.load import OPERATIONS
+    from umbilical.studies.load import STUDIES
 
-    return study_text(name) if name in study_names() else preset_text(name)
+    return {"scenarios": ("run", PRESETS), "studies": ("sweep", STUDIES), "operations": ("operate", OPERATIONS)}
+
+
+def _find(name: str) -> tuple[str, str]:
+    """The command that takes what has this name, and its TOML text; FileError if there is none."""
+    from umbilical.scenario.problems import nearest
+
+    for verb, presets in _kinds().values():
+        if name in presets.names:
+            return verb, presets.text(name)
+    known = [known for _, presets in _kinds().values() for known in presets.names]
+    raise FileError(f"{name}: there is no preset of this name; {nearest(name, known)}")
 
 
 def _descriptions() -> str:
-    from umbilical.library import preset_names
     from umbilical.scenario.document import read
-    from umbilical.studies.load import study_names
 
-    def described(names: tuple[str, ...]) -> str:
-        return table([(name, _first_sentence(read(_text(name), name)["description"])) for name in names])
+    def described(presets: Presets) -> str:
+        texts = {name: read(presets.text(name), name)["description"] for name in presets.names}
+        return table([(name, _first_sentence(text)) for name, text in texts.items()])
 
-    return f"scenarios\n{described(preset_names())}\n\nstudies\n{described(study_names())}"
+    return "\n\n".join(f"{kind}, for `umbilical {verb}`\n{described(own)}" for kind, (verb, own) in _kinds().items())
 
 
 def _first_sentence(text: str) -> str:

@@ -11,7 +11,7 @@ from typer import Argument, Option
 from umbilical.cli.options import Changes, Force, Json, Own, Plot
 from umbilical.cli.output import print_json, print_result, report
 from umbilical.cli.targets import PICTURES, check_target, draw
-from umbilical.errors import OutputError, Problem, ScenarioError
+from umbilical.errors import FileError, OutputError, Problem, ScenarioError
 
 if TYPE_CHECKING:
     from umbilical.control.contract import Controller
@@ -109,13 +109,25 @@ def load_changed(source: str, changes: Sequence[str], controller: str | None = N
             problems += error.problems
     try:
         scenario = load(source, found)
+    except FileError:
+        _refuse_operation(source)
+        raise
     except ScenarioError as error:
+        _refuse_operation(source)
         raise ScenarioError([*problems, *error.problems], error.origin) from error
     if problems:
         raise ScenarioError(problems, source)
     if Path(source).suffix == ".nc" and not controller:
         _report_other_controller(source)
     return scenario
+
+
+def _refuse_operation(source: str) -> None:
+    """Say where an operation belongs, rather than which keys of a scenario it lacks."""
+    from umbilical.screening.load import is_operation
+
+    if is_operation(source):
+        raise FileError(f"{source}: this is an operation; `umbilical operate`, `lower` and `show` take it")
 
 
 def _report_other_controller(source: str) -> None:

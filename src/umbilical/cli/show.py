@@ -12,13 +12,14 @@ from umbilical.cli.output import print_json, print_result
 from umbilical.faces.text import paragraph, table
 
 if TYPE_CHECKING:
-    pass
+    from umbilical.scenario import Scenario
+    from umbilical.screening import Operation
 
 _ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "version_numba", "version_python")
 
 
 def show(
-    file: Annotated[str, Argument(help="A .nc result, a .toml scenario or study, or a preset's name.")],
+    file: Annotated[str, Argument(help="A .nc result, a .toml scenario, study or operation, or a preset's name.")],
     metric: Annotated[
         list[str] | None, Option("--metric", metavar="NAME", help="Of a study: show this one; may be repeated.")
     ] = None,
@@ -30,14 +31,17 @@ def show(
     ] = None,
     as_json: Json = False,
 ) -> None:
-    """Show a result's metrics, what a study found, or the values of a scenario and what is assumed.
+    """Show a result's metrics, what a study found, or the values of a scenario or operation and what is assumed.
 
     \b
     examples
       umbilical show paper
+      umbilical show work-class
       umbilical show paper.nc
       umbilical show robust/study.nc --metric tip_peak --sensitivity tip_peak
     """
+    from umbilical.library import preset_names
+    from umbilical.screening.load import is_operation
     from umbilical.studies.load import is_study
 
     if is_study(file):
@@ -46,6 +50,8 @@ def show(
         raise BadParameter("only the result of a study has distributions", param_hint="--metric")
     elif Path(file).suffix == ".nc":
         _show_run(file, as_json)
+    elif file not in preset_names() and is_operation(file):
+        _show_operation(file, as_json)
     else:
         _show_scenario(file, as_json)
 
@@ -91,7 +97,6 @@ def _show_run(file: str, as_json: bool) -> None:
 def _show_scenario(source: str, as_json: bool) -> None:
     from umbilical.library import admit, load
     from umbilical.plant.checks.statics import statics
-    from umbilical.scenario.inventory import inventory
 
     scenario = load(source)
     notices = [str(notice) for notice in admit(scenario)]
@@ -100,14 +105,32 @@ def _show_scenario(source: str, as_json: bool) -> None:
         known = {"statics": found and found._asdict(), "notices": notices}
         print_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, **known})
         return
-    entries = [
-        (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning) for e in inventory(scenario)
-    ]
     told = f"before the first step: {found}" if found else ""
-    parts = [f"{scenario.name}, {scenario.hash[:12]}", paragraph(scenario.description), told, table(entries)]
-    if scenario.assumed:
-        parts += ["assumed, because no source gives them:", table(list(scenario.assumed.items()))]
-    print_result("\n\n".join([*filter(None, parts), *(f"note: {notice}" for notice in notices)]))
+    print_result("\n\n".join([_inventory(scenario, told), *(f"note: {notice}" for notice in notices)]))
+
+
+def _show_operation(source: str, as_json: bool) -> None:
+    from umbilical.screening import load_operation
+
+    operation = load_operation(source)
+    if as_json:
+        print_json({"operation": operation.to_dict(), "operation_hash": operation.hash})
+    else:
+        print_result(_inventory(operation))
+
+
+def _inventory(whole: Scenario | Operation, told: str = "") -> str:
+    """Every value with its unit and meaning, and what is assumed."""
+    from umbilical.scenario.inventory import inventory
+
+    entries = [
+        (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning)
+        for e in inventory(whole, whole.assumed)
+    ]
+    parts = [f"{whole.name}, {whole.hash[:12]}", paragraph(whole.description), told, table(entries)]
+    if whole.assumed:
+        parts += ["assumed, because no source gives them:", table(list(whole.assumed.items()))]
+    return "\n\n".join(filter(None, parts))
 
 
 _LONGEST = 48

@@ -110,7 +110,7 @@ def _shown(value: float, digits: int = 4) -> str:
 def _proof(certificate: Certificate) -> str:
     proof = certificate.proof
     if proof.holds and certificate.rate <= 0.0:
-        return "verified by interval arithmetic: these rates, of which one at least is no decay"
+        return "verified by interval arithmetic: these rates, one of which at least is not above 0"
     if proof.holds:
         return f"verified for all x and t by interval arithmetic, in {proof.boxes} boxes of time"
     if not proof.boxes:

@@ -18,7 +18,7 @@ def conclusion(found: Confirmation) -> Conclusion:
     if not found.completed.all():
         return Conclusion("UNRESOLVED", f"{what} is NOT CONFIRMED: only {count} completed")
     share = reached.share
-    told = f"{found.criteria[found.worst]} is used up to {share.value:.2f} ({share.low:.2f} to {share.high:.2f})"
+    told = f"{share.value:.2f} ({share.low:.2f} to {share.high:.2f}) of {found.criteria[found.worst]} is used"
     if any(each.too_many or each.share.low > 1.0 for each in found.reached):
         return Conclusion("DOES_NOT_HOLD", f"{what} is NOT CONFIRMED by {count}: {told}{_instead(found)}")
     if all(each.share.high <= 1.0 for each in found.reached):
@@ -33,15 +33,15 @@ def _instead(found: Confirmation) -> str:
 
 def text(found: Confirmation) -> str:
     """What each criterion came to, and what the runs do not know."""
-    rows = [("criterion", "used up to", "95 % interval", "runs that pass it")]
+    rows = [("criterion", "share used", "95 % interval", "runs that exceed it")]
     for criterion, reached in zip(found.criteria, found.reached, strict=True):
         share = reached.share
         interval = f"{share.low:.3f} to {share.high:.3f}"
-        rows.append((str(criterion), f"{share.value:.3f}", interval, f"{reached.passed} of {found.completed.sum()}"))
+        rows.append((str(criterion), f"{share.value:.3f}", interval, f"{reached.exceeded} of {found.completed.sum()}"))
     return "\n".join([
         table(rows, right=[1, 2, 3]),
-        "  used up to: share of what a criterion allows that is passed with its probability within its time; Gumbel of "
-        "the squares of the largest in ten minutes",
+        "  share used: of the tension or heave that a criterion allows, what is exceeded with its probability within "
+        "its time (above 1: it is not kept); Gumbel of the squares of the largest in ten minutes",
         *(f"  note: {notice}" for notice in notices(found)),
     ])  # fmt: skip
 
@@ -66,7 +66,7 @@ def document(found: Confirmation) -> dict[str, Any]:
         "seeds": found.seeds.tolist(),
         "completed": found.completed.tolist(),
         "criteria": [
-            {"criterion": str(c), "used": r.share._asdict(), "passed": r.passed, "too_many": r.too_many}
+            {"criterion": str(c), "used": r.share._asdict(), "exceeded": r.exceeded, "too_many": r.too_many}
             for c, r in zip(found.criteria, found.reached, strict=True)
         ],
         "largest_shares": found.shares.tolist(),

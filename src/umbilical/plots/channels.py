@@ -224,7 +224,7 @@ def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
     for number, name in enumerate(large):
         draw(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)
     residual = run.metrics.get("energy_balance_residual", float("nan"))
-    return finish(ax, run, f"energy and work done on it, closing to {residual:.1e}", axis_label(run["energy"]))
+    return finish(ax, run, f"energy and work done on it; balance within {residual:.1e}", axis_label(run["energy"]))
 
 
 def plot_overview(run: Run) -> Figure:

@@ -47,12 +47,14 @@ def _draw_followed(design: Design, ax: Axes) -> None:
     decay = -np.log(np.maximum(design.reflections, 1e-6)) / trip
     ideal = -np.log(np.maximum(np.abs(speed - design.betas) / (speed + design.betas), 1e-6)) / trip
     ax.loglog(design.betas, ideal, color=QUIET, linestyle="--", linewidth=1.0, label="ideal law")
-    ax.loglog(design.betas, decay, color=COLOURS[1], linewidth=0.9, label="these motors")
+    ax.loglog(design.betas, decay, color=COLOURS[1], linewidth=0.9, label="with these motors")
     inside = np.where(design.followed, decay, np.nan)
-    ax.loglog(design.betas, inside, color=COLOURS[0], linewidth=3.0, label="with all margins")
+    ax.loglog(design.betas, inside, color=COLOURS[0], linewidth=3.0, label="and all margins kept")
     law = design.after.scenario.control.law
     ax.axvline(getattr(law, "slope_gain", np.nan), color=QUIET, linestyle=":", linewidth=1.0)
-    dress(ax, "slowest of the first modes: decay over beta", xlabel="beta [m/s]", ylabel="decay [1/s]")
+    dress(
+        ax, "decay of the slowest of the first modes over slope_gain", xlabel="slope_gain [m/s]", ylabel="decay [1/s]"
+    )
 
 
 def _draw_reflections(design: Design, ax: Axes) -> None:
@@ -61,8 +63,10 @@ def _draw_reflections(design: Design, ax: Axes) -> None:
         j = side.report.judgements[0]
         ax.semilogx(j.frequency, j.reflection, **style)
     sweep = design.after.report.judgements[0].sweep
-    ax.semilogx(sweep.coarse, 1.0 / sweep.loudest, color=QUIET, linestyle=":", label="what the cable takes")
-    dress(ax, "reflection of the ROV |R|", xlabel="frequency [rad/s]", xlim=(1e-2, None))
+    ax.semilogx(sweep.coarse, 1.0 / sweep.loudest, color=QUIET, linestyle=":", label="limit: above it waves grow")
+    dress(
+        ax, "wave thrown back by the ROV over the wave that arrives, |R|", xlabel="frequency [rad/s]", xlim=(1e-2, None)
+    )
 
 
 def _draw_rejection(design: Design, ax: Axes) -> None:
@@ -72,7 +76,7 @@ def _draw_rejection(design: Design, ax: Axes) -> None:
         response = loop_response(j.sweep.cable, j.sweep.loop, 1j * j.frequency)
         ax.loglog(j.frequency, response.compliance(), linewidth=1.2, **style)
     labels: dict[str, Any] = {"xlabel": "frequency [rad/s]", "ylabel": "displacement per force [m/N]"}
-    dress(ax, "ROV per force on it, the cable without an end", xlim=(1e-2, None), **labels)
+    dress(ax, "displacement of the ROV per force on it, long cable", xlim=(1e-2, None), **labels)
 
 
 def _draw_trips(design: Design, ax: Axes) -> None:
@@ -85,7 +89,7 @@ def _draw_trips(design: Design, ax: Axes) -> None:
         style = {"color": COLOURS[number % SOLID], "linestyle": ("-", (0, (5, 2)))[number // SOLID % 2]}
         ax.loglog(sweep.coarse, np.where(size < 1.0, 1.0 - size, np.nan), linewidth=1.2, label=label, **style)
     ax.set(xlabel="frequency [rad/s]", ylabel="1 - |echo R|", xlim=(1.0, None), ylim=(LEAST_TAKEN, 1.0))
-    dress(ax, "what a round trip takes, under what shall be survived")
+    dress(ax, "share a wave loses per round trip, under each change to survive")
 
 
 def _draw_motion(design: Design, ax: Axes, sigma: float, name: str) -> None:

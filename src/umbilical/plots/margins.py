@@ -59,13 +59,13 @@ def _draw_reflection(report: MarginReport, *, ax: Axes) -> None:
         ax.semilogx(j.frequency, j.reflection, color=COLOURS[number], linewidth=1.4, label=f"{j.length:g} m")
     shortest = min(report.judgements, key=lambda j: j.length)
     taken = 1.0 / shortest.sweep.loudest
-    ax.semilogx(shortest.sweep.coarse, taken, color=QUIET, linestyle=":", label="what the cable takes")
+    ax.semilogx(shortest.sweep.coarse, taken, color=QUIET, linestyle=":", label="limit: above it waves grow")
     gains = report.scenario.control.law.boundary_gains
     if gains and not report.controller:
         speed = shortest.sweep.cable.tip_wave_speed
         ideal = abs(speed - gains[1]) / (speed + gains[1])
         ax.axhline(ideal, color=QUIET, linestyle="--", linewidth=1.0, label="ideal law")
-    dress(ax, "reflection of the ROV |R|", xlabel=FREQUENCY, xlim=(LOWEST, None))
+    dress(ax, "wave thrown back by the ROV over the wave that arrives, |R|", xlabel=FREQUENCY, xlim=(LOWEST, None))
 
 
 def _draw_nyquist(report: MarginReport, *, ax: Axes) -> None:
@@ -84,7 +84,7 @@ def _draw_nyquist(report: MarginReport, *, ax: Axes) -> None:
     ax.plot([1.0], [0.0], "+", color="black", markersize=10)
     _point_at_closest(ax, closest)
     shown: dict[str, Any] = {"xlim": (-SHOWN_LOOP, SHOWN_LOOP), "ylim": (-SHOWN_LOOP, SHOWN_LOOP), "aspect": "equal"}
-    title = f"L near 1 at {closest.length:g} m, echo in any phase"
+    title = f"opened loop L near the critical point 1, {closest.length:g} m"
     dress(ax, title, xlabel="real part", ylabel="imaginary part", **shown)
 
 
@@ -129,8 +129,8 @@ def _draw_bode(report: MarginReport, axes: tuple[Axes, Axes]) -> None:
                 size.axvline(limit.frequency, color=colour, linestyle=":", linewidth=0.9)
     size.axhline(1.0, color=QUIET, linestyle=":", linewidth=1.0)
     labels: dict[str, Any] = {"xlabel": FREQUENCY, "xlim": (LOWEST, None)}
-    dress(size, "size of L, band: echo in any phase; lines: phase and delay used up", ylabel="|L|", **labels)
-    dress(angle, "angle of L, band: echo in any phase", ylabel="degrees", **labels)
+    dress(size, "|L|; band: echo in any phase; dotted: phase and delay margins", ylabel="|L|", **labels)
+    dress(angle, "angle of L; band: echo in any phase", ylabel="degrees", **labels)
 
 
 def _first_modes(j: Judgement) -> tuple[np.ndarray, np.ndarray]:

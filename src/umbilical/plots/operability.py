@@ -31,9 +31,8 @@ def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | 
 
     >>> import numpy as np
     >>> import umbilical
-    >>> from umbilical.screening.criteria import parse_criterion
     >>> depth, period = np.array([500.0, 1500.0, 3000.0]), np.array([8.0])
-    >>> found = umbilical.operate(umbilical.load_operation("work-class"), [parse_criterion("slack=1e-2/3h")],
+    >>> found = umbilical.operate(umbilical.load_operation("work-class"), ["slack=1e-2/3h"],
     ...                           depth=depth, period=period, heading=np.radians([135.0]))
     >>> umbilical.plot_operability(found).get_figure().savefig("limits.png")
     """
@@ -54,6 +53,10 @@ def _map(found: Operability, worst: np.ndarray, ax: Axes) -> None:
     lines = ax.contour(found.period, found.depth, worst, LEVELS, colors="black", linewidths=0.8)
     ax.clabel(lines, fmt="%g m", fontsize=8)
     ax.plot(found.axial_period, found.depth, color=COLOURS[1], linewidth=1.8, label="Tp equals the axial period T1")
+    if found.steepest.any():
+        hatched = {"colors": "none", "hatches": ["///"], "levels": [0.5, 1.5]}
+        ax.contourf(found.period, found.depth, found.steepest.astype(float), **hatched)
+        ax.fill([], [], facecolor="none", edgecolor="black", hatch="///", label="no limit below the steepest sea")
     ax.set(xlabel="peak period Tp [s]", xlim=(found.period.min(), found.period.max()))
     ax.set(ylabel="cable paid out [m]", ylim=(found.depth.max(), found.depth.min()))
     as_figure(ax).colorbar(drawn, ax=ax, label="limiting Hs, worst heading [m]", extend="max")
@@ -95,7 +98,12 @@ def plot_lowering(found: Lowering) -> Figure:
     left.axvline(found.speed[found.best], color=QUIET, linestyle="--", linewidth=1.0)
     left.annotate(f"best: {found.speed[found.best]:.3g} m/s", (found.speed[found.best], 1.0), xytext=(4, -2),
                   textcoords="offset points", va="top", fontsize=8, xycoords=("data", "axes fraction"))  # fmt: skip
-    dress(left, xlabel="winch speed [m/s]", ylabel="probability of slack in the descent", ylim=(1e-8, 2.0))
+    dress(
+        left,
+        xlabel="winch speed [m/s]",
+        ylabel="probability of slack in the descent",
+        ylim=(max(1e-8, 0.1 * float(found.risk.min())), 2.0),
+    )
     chosen = dict.fromkeys((0, found.best, found.speed.size - 1))
     for number, row in enumerate(chosen):
         right.semilogx(found.slack_rate[row] * 3600.0, found.depth, color=COLOURS[number],

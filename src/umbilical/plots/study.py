@@ -71,7 +71,7 @@ def _interval(ax: Axes, found: Estimate, share: float, colour: str) -> None:
 
 
 def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None = None) -> Axes:
-    """Each arm against the one before it, draw by draw: how the ratio of a metric is distributed.
+    """Each arm against the first, draw by draw: how the ratio of a metric is distributed.
 
     Raises:
         ValueError: there is only one arm.
@@ -80,19 +80,20 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         raise ValueError(f"{result.study.name}: there is only one arm, and nothing to compare")
     ax = ax or new_figure(7.0, 4.2 + _legend(result)).add_subplot()
     spread = []
-    for colour, (other, arm) in enumerate(zip(result.arms[:-1], result.arms[1:], strict=True), start=1):
+    other = result.arms[0]
+    for colour, arm in enumerate(result.arms[1:], start=1):
         found = against(result, metric, arm, other)
         ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
-        text = f"{arm}\n  over {other}:\n  median {told(found.ratio, 3)}"
+        text = f"{arm}\n  median {told(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
         ax.step(ratio, shares, where="post", label=text, **_look(colour))
         spread.append(ratio)
     _logarithmic_if_wide(ax, np.concatenate(spread))
     ax.axvline(1.0, color=QUIET, linestyle=":")
     ax.set(xlabel=f"ratio of {metric}, on the same draw", ylabel="share of the members below", ylim=(0.0, 1.02))
-    return _finish(ax, "each arm over the one before it: left of 1 it is the better one")
+    return _finish(ax, f"each arm over {other}: below 1 the arm is better")
 
 
 def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *, ax: Axes | None = None) -> Axes:

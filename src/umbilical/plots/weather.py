@@ -22,10 +22,9 @@ def plot_weather(found: Weather) -> Figure:
 
     >>> import numpy as np
     >>> import umbilical
-    >>> from umbilical.screening.criteria import parse_criterion
     >>> from umbilical.screening import Seas, weather
     >>> seas = Seas(np.array([1.0, 3.0]), np.array([8.0, 9.0]), np.array([0.7, 0.3]), None)
-    >>> found = weather(umbilical.load_operation("work-class"), [parse_criterion("slack=1e-2/3h")], seas,
+    >>> found = weather(umbilical.load_operation("work-class"), ["slack=1e-2/3h"], seas,
     ...                 depth=np.array([1500.0]), heading=np.radians([135.0]))
     >>> umbilical.plot_weather(found).savefig("weather.png")
     """

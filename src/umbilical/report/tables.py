@@ -54,7 +54,7 @@ def given_table(scenario: Scenario, caption: str, keys: Sequence[str] = ()) -> H
     """Values that have a source: key, value, unit, meaning and where they stand there; only some ``keys`` if named."""
     rows = [
         (code(e.key), e.value, e.unit, e.meaning, e.source)
-        for e in inventory(scenario)
+        for e in inventory(scenario, scenario.assumed)
         if e.source and not e.assumed and (not keys or e.key in keys)
     ]
     return table(("key", "value", "unit", "meaning", "source"), rows, caption=caption, numbers=(1,))
@@ -76,7 +76,7 @@ def assumed_table(scenarios: Iterable[Scenario], caption: str) -> Html:
 
 def _assumed(scenario: Scenario) -> Iterator[tuple[str, str, str, str, str]]:
     """Key, value, unit, meaning and reason of all that is assumed; no value where it is to be absent."""
-    entries = [entry for entry in inventory(scenario) if entry.assumed]
+    entries = [entry for entry in inventory(scenario, scenario.assumed) if entry.assumed]
     yield from ((e.key, e.value, e.unit, e.meaning, e.reason) for e in entries)
     for key, reason in scenario.assumed.items():
         if not any(f"{entry.key}.".startswith(f"{key}.") for entry in entries):

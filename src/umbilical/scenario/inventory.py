@@ -38,14 +38,15 @@ class Entry(NamedTuple):
         return bool(self.reason)
 
 
-def inventory(scenario: Scenario) -> list[Entry]:
-    """Every value of a scenario, but for sections that are left at their defaults and not marked.
+def inventory(whole: Record, assumed: Mapping[str, str]) -> list[Entry]:
+    """Every value of a scenario or an operation, but for sections that are left at their defaults and not marked.
 
     >>> from umbilical.library import load
-    >>> [entry for entry in inventory(load("paper")) if entry.key == "cable.line_density"][0].value
+    >>> paper = load("paper")
+    >>> [entry for entry in inventory(paper, paper.assumed) if entry.key == "cable.line_density"][0].value
     '2.0'
     """
-    return [entry for entry in _entries(scenario, "", scenario.assumed) if entry.key not in _ELSEWHERE]
+    return [entry for entry in _entries(whole, "", assumed) if entry.key not in _ELSEWHERE]
 
 
 def words_at(scenario: Scenario, key: str) -> tuple[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from html import escape
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, WithJsonSchema, model_validator
@@ -119,6 +120,15 @@ class Scenario(Record):
         from umbilical.scenario.text import to_toml
 
         return to_toml(self)
+
+    def _repr_html_(self) -> str:
+        """Every value with its unit and meaning, as a table for notebooks."""
+        from umbilical.scenario.inventory import inventory
+
+        cells = ((e.key, e.value[:60], e.unit, e.meaning) for e in inventory(self, self.assumed))
+        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
+        head = f"<summary><b>{escape(self.name)}</b>: {escape(self.description)}</summary>"
+        return f"<details>{head}<table>{rows}</table></details>"
 
     def replace(self, overrides: Mapping[str, Any]) -> Scenario:
         """The same scenario with some values changed.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
@@ -15,6 +16,10 @@ NAMES = {
 }
 _TIMES = {"s": 1.0, "min": 60.0, "h": 3600.0}
 _FORM = re.compile(r"(?P<name>\w+)(:(?P<level>[^=]+))?=(?P<probability>[^/]+)/(?P<time>[^a-z]+)(?P<unit>s|min|h)")
+
+
+USUAL = ("slack=1e-2/3h",)
+"""What must hold unless something else is said."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +40,15 @@ class Criterion:
     def __str__(self) -> str:
         level = "" if self.name == "slack" else f":{self.level:g}"
         return f"{self.name}{level}={self.probability:g}/{self.duration / 3600.0:g}h"
+
+
+def read_criteria(criteria: Sequence[Criterion | str]) -> tuple[Criterion, ...]:
+    """Criteria of texts; raises as :func:`parse_criterion`.
+
+    >>> [str(criterion) for criterion in read_criteria(["slack=1e-2/3h"])]
+    ['slack=0.01/3h']
+    """
+    return tuple(parse_criterion(one) if isinstance(one, str) else one for one in criteria)
 
 
 def parse_criterion(text: str) -> Criterion:

@@ -64,6 +64,22 @@ def operation_names() -> tuple[str, ...]:
     return OPERATIONS.names
 
 
+def is_operation(source: str | os.PathLike[str]) -> bool:
+    """Whether a name or a file means an operation: it says so, or extends one.
+
+    >>> is_operation("work-class"), is_operation("paper")
+    (True, False)
+    """
+    origin = os.fspath(source)
+    if origin in operation_names() or not origin.endswith(".toml"):
+        return origin in operation_names()
+    try:
+        data = read(_text(origin), origin)
+    except (FileError, ScenarioError):
+        return False
+    return data.get("kind") == "operation" or data.get("extends") in operation_names()
+
+
 def operation_text(name: str) -> str:
     """TOML text of an operation that comes with the package."""
     return OPERATIONS.text(name)

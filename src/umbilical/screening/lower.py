@@ -75,7 +75,8 @@ class Lowering(ResultFaces):
         band = self.depth[self.resonant]
         where = f"resonant from {band[0]:.4g} to {band[-1]:.4g} m" if band.size else "no depth is resonant"
         return (
-            f"{self.operation.name}: {speed:.3g} m/s is best, slack with probability {risk:.2g} in "
+            f"{self.operation.name}: {speed:.3g} m/s is best from {self.depth[0]:.4g} to {self.depth[-1]:.4g} m, "
+            f"slack with probability {risk:.2g} in "
             f"{np.ptp(self.depth) / speed / 60.0:.3g} min; {where}"
         )
 

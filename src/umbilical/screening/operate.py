@@ -16,7 +16,7 @@ import numpy as np
 from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.relations.tension import hanging_of, net_gravity, tension
 from umbilical.result import ResultFaces
-from umbilical.screening.criteria import Criterion
+from umbilical.screening.criteria import USUAL, Criterion, read_criteria
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation
 from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread, unknowns
@@ -66,6 +66,11 @@ class Operability(ResultFaces):
     def limit(self) -> np.ndarray:
         """Hs at which the first criterion fails, m, shape (depth, period, heading)."""
         return self.limits.min(axis=0)
+
+    @property
+    def steepest(self) -> np.ndarray:
+        """Where no heading has a limit below the steepest sea of the period, shape (depth, period)."""
+        return self.limit.min(axis=2) >= steepest_height(self.period)
 
     @property
     def worst(self) -> tuple[int, int, int]:
@@ -152,18 +157,18 @@ class Operability(ResultFaces):
 
 def operate(
     operation: Operation,
-    criteria: Sequence[Criterion],
+    criteria: Sequence[Criterion | str] = USUAL,
     *,
-    depth: np.ndarray,
-    period: np.ndarray,
-    heading: np.ndarray,
+    depth: np.ndarray | Sequence[float],
+    period: np.ndarray | Sequence[float],
+    heading: np.ndarray | Sequence[float],
     progress: Callable[[float], None] = lambda share: None,
 ) -> Operability:
     """Find the limiting Hs of long-crested seas over depth, peak period and heading.
 
     Args:
         operation: vessel, cable, body, compensation.
-        criteria: what must hold, one or more.
+        criteria: what must hold, one or more, such as ``"top_tension:250e3=1e-2/3h"``; no slack if left out.
         depth: cable paid out, m, shape (d,).
         period: peak periods Tp, s, shape (p,).
         heading: directions the waves go to, rad, shape (h,).
@@ -171,24 +176,25 @@ def operate(
 
     >>> import numpy as np
     >>> from umbilical.screening import load_operation
-    >>> from umbilical.screening.criteria import parse_criterion
-    >>> found = operate(load_operation("work-class"), [parse_criterion("slack=1e-2/3h")],
-    ...                 depth=np.array([1500.0]), period=np.array([8.0]), heading=np.radians([135.0]))
+    >>> found = operate(load_operation("work-class"), ["slack=1e-2/3h"], depth=[1500.0], period=[8.0],
+    ...                 heading=np.radians([135.0]))
     >>> round(float(found.limit[0, 0, 0]), 2)
     1.64
     """
+    depth, period, heading = (np.asarray(axis, dtype=float) for axis in (depth, period, heading))
+    criteria = read_criteria(criteria)
     seas = _unit_seas(operation, period, heading)
     found, damped = [], []
     for number, length in enumerate(depth.tolist()):
-        found.append(_limits_at(operation, tuple(criteria), bar_of(operation, length), seas))
-        damped.append(_limits_at(operation, tuple(criteria), _with_typical_loss(bar_of(operation, length)), seas))
+        found.append(_limits_at(operation, criteria, bar_of(operation, length), seas))
+        damped.append(_limits_at(operation, criteria, _with_typical_loss(bar_of(operation, length)), seas))
         progress((number + 1) / depth.size)
     shape = (len(criteria), depth.size, period.size, heading.size)
     steepest = steepest_height(period)[None, None, :, None]
     limits, held = (np.minimum(np.stack(part, axis=1).reshape(shape), steepest) for part in (found, damped))
     axial = np.array([axial_period(bar_of(operation, length)) for length in depth.tolist()])
     undamped = abs(held.min(axis=0) - limits.min(axis=0)) > MOVED * limits.min(axis=0)
-    return Operability(operation, tuple(criteria), depth, period, heading, limits, axial, undamped)
+    return Operability(operation, criteria, depth, period, heading, limits, axial, undamped)
 
 
 def _with_typical_loss(bar: Bar) -> Bar:

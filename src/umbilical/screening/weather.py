@@ -136,11 +136,11 @@ class Weather(ResultFaces):
 
 def weather(
     operation: Operation,
-    criteria: Sequence[Criterion],
+    criteria: Sequence[Criterion | str],
     seas: Seas,
     *,
-    depth: np.ndarray,
-    heading: np.ndarray,
+    depth: np.ndarray | Sequence[float],
+    heading: np.ndarray | Sequence[float],
     needed: float = 3 * 3600.0,
     progress: Callable[[float], None] = lambda share: None,
 ) -> Weather:
@@ -155,10 +155,9 @@ def weather(
         progress: called with the share that is done.
 
     >>> from umbilical.screening import load_operation
-    >>> from umbilical.screening.criteria import parse_criterion
     >>> seas = Seas(np.array([1.0, 3.0]), np.array([8.0, 8.0]), np.array([0.7, 0.3]), None)
-    >>> found = weather(load_operation("work-class"), [parse_criterion("slack=1e-2/3h")], seas,
-    ...                 depth=np.array([1500.0]), heading=np.radians([135.0]))
+    >>> found = weather(load_operation("work-class"), ["slack=1e-2/3h"], seas, depth=[1500.0],
+    ...                 heading=np.radians([135.0]))
     >>> round(found.share, 3)
     0.7
     """

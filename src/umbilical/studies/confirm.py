@@ -35,12 +35,12 @@ class Reached(NamedTuple):
 
     Attributes:
         share: of what is allowed, that is passed with the accepted probability within the accepted time.
-        passed: runs in which the criterion was passed.
+        exceeded: runs in which it was exceeded.
         too_many: whether so many runs would pass it in one of forty cases at the most, were the limit right.
     """
 
     share: Estimate
-    passed: int
+    exceeded: int
     too_many: bool
 
 

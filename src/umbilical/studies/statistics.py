@@ -61,9 +61,7 @@ def caveat(design: Method) -> str:
     if design in NO_SAMPLE:
         return f"no intervals: the members of a {design} design are chosen, not drawn"
     if design in ("latin", "sobol"):
-        return (
-            f"intervals are those of independent draws; a {design} design is more even, and they are usually too wide"
-        )
+        return f"intervals assume independent draws; a {design} design is more even, so they are usually too wide"
     return ""
 
 

@@ -200,7 +200,7 @@ def _used_up_first(task: Task, after: Side) -> str:
         return f"{where}; the thruster is ideal"
     motors, hold = judge.motor_lag(loop, frequency)
     ideal = judge.score(sampled_loop(after.scenario.model_copy(update={"ideal_thruster": True}), task.thrust))
-    lag = f"{np.degrees(motors):.0f} degrees of lag are the motors', {np.degrees(hold):.0f} the sampling's"
+    lag = f"the motors lag by {np.degrees(motors):.0f} deg, the sampling by {np.degrees(hold):.0f} deg"
     better = "more" if ideal.trip < after.score.trip else "no more"
     return f"{where}; there {lag}; with the same gains ideal thrusters would leave {better} of it"
 
