@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from math import inf
 from typing import Any, NamedTuple
 
@@ -40,6 +40,16 @@ class Steps:
     end: Array
     jumps: Array
     shared: bool = False
+
+    @cached_property
+    def jumped(self) -> Array:
+        """Numbers of the steps that something jumps at the start of."""
+        return np.flatnonzero(np.isin(self.start, self.jumps)) if self.jumps.size else np.zeros(0, dtype=np.int64)
+
+    @cached_property
+    def entered(self) -> Array:
+        """Numbers of the steps that do not begin as the one before ended, as far as is known: the first, and those."""
+        return np.union1d([0], self.jumped)
 
 
 START, END, MIDDLE = range(3)  # only motors have a middle
@@ -90,6 +100,10 @@ EFFECTS: dict[faults.Target, tuple[str, str]] = {
     "voltage": ("drive_effectiveness", "stuck_voltage"),
 }
 """Quantities of :class:`MotorExogenous` that faults give, by their target."""
+
+
+Rows = tuple[Sequence[Array], ...]
+"""Functions of time, one after the other: at the start of steps that are entered, at the end of all, in the middle."""
 
 
 class Inputs(NamedTuple):
@@ -197,6 +211,7 @@ class Outside:
         self._orbits: Any = orbital.orbits(environment, directions) if orbital.moves_the_water(environment) else None
         sinks = SINKING if in_plane and (heaving(environment) or environment.water) else ()
         self._wanted = WINCH + sinks + (STRETCHING if self._stretching else ())
+        self._faulty: set[tuple[str, int]] = set()
 
     def sample(self, steps: Steps) -> Inputs:
         """All inputs at the given steps. The arrays are used again by the next call."""
@@ -205,22 +220,23 @@ class Outside:
             self._inputs = _empty(self._scenario, count)
         inputs, environment = self._inputs, self._scenario.environment
         np.subtract(steps.end, steps.start, out=inputs.dt)
-        inputs.refresh[:] = np.isin(steps.start, steps.jumps) if steps.jumps.size else False
-        entered = inputs.refresh.copy()
-        entered[:1] = True
+        inputs.refresh[:] = False
+        inputs.refresh[steps.jumped] = True
         rows = _kept(_winch_at, steps)(self._scenario.winch, self._sea, self._stretching, environment.gravity, steps)
-        _put(inputs.world, self._wanted, rows, entered)
+        _put(inputs.world, self._wanted, rows, steps)
         if variation_of(environment):
             rows = _rows(lambda t, side: current_at(environment, t, side), steps)
-            _put(inputs.world, ("current_factor", "current_rate"), rows, entered)
+            _put(inputs.world, ("current_factor", "current_rate"), rows, steps)
         if environment.vessel_motion or environment.sea:
             rows = _rows(lambda t, side: vessel_at(environment, t, side), steps)
-            _put(inputs.world, ("vessel_displacement", "vessel_velocity"), rows, entered)
-        _put_signal(inputs.world, "payload_force", environment.payload_force, steps, entered)
+            _put(inputs.world, ("vessel_displacement", "vessel_velocity"), rows, steps)
+        _put_signal(inputs.world, "payload_force", environment.payload_force, steps)
         for k, load in enumerate(environment.cable_load):
             if load.signal:
-                inputs.loads[:, k].T[:] = _kept(_signal_at, steps)(load.signal, steps)[0, :2]
-        self._sample_motors(steps, inputs.motors, entered)
+                (starts,), (ends,) = _kept(_signal_at, steps)(load.signal, steps)
+                inputs.loads[:, k, END], inputs.loads[1:, k, START] = ends, ends[:-1]
+                inputs.loads[steps.entered, k, START] = starts
+        self._sample_motors(steps, inputs.motors)
         return inputs if self._orbits is None else self._with_waves(steps, inputs)
 
     def _with_waves(self, steps: Steps, inputs: Inputs) -> Inputs:
@@ -230,15 +246,17 @@ class Outside:
         place[START], place[END] = steps.start / orbital.STEP - first, steps.end / orbital.STEP - first
         return inputs._replace(orbits=rows)
 
-    def _sample_motors(self, steps: Steps, out: MotorExogenous, entered: Array) -> None:
+    def _sample_motors(self, steps: Steps, out: MotorExogenous) -> None:
         for k, motor in enumerate(self._scenario.motors):
-            _put_signal(out[:, :, k], "torque_disturbance", motor.torque_disturbance, steps, entered)
-            _put_signal(out[:, :, k], "voltage_disturbance", motor.voltage_disturbance, steps, entered)
-        timeline = self._scenario.faults
-        for target, names in EFFECTS.items():
-            for number in sorted({fault.motor for fault in timeline if fault.target == target}):
-                rows = _rows(partial(faults.effect, timeline, number, target), steps, middle=True)
-                _put(out[:, :, number - 1], names, rows, entered)
+            _put_signal(out[:, :, k], "torque_disturbance", motor.torque_disturbance, steps)
+            _put_signal(out[:, :, k], "voltage_disturbance", motor.voltage_disturbance, steps)
+        for fault in self._scenario.faults:
+            if fault.start <= steps.end[-1]:
+                self._faulty.add((fault.target, fault.motor))
+        for target, names in EFFECTS.items():  # a motor is healthy until its first fault, as the arrays are made
+            for number in sorted(motor for kind, motor in self._faulty if kind == target):
+                rows = _rows(partial(faults.effect, self._scenario.faults, number, target), steps, middle=True)
+                _put(out[:, :, number - 1], names, rows, steps)
 
 
 def _empty(scenario: Scenario, steps: int) -> Inputs:
@@ -253,7 +271,7 @@ def _empty(scenario: Scenario, steps: int) -> Inputs:
 
 # The runs of a study share the winch and most signals, and these cost a sixth of a run: kept by steps and record.
 @lru_cache(maxsize=32)
-def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, gravity: float, steps: Steps) -> Array:
+def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, gravity: float, steps: Steps) -> Rows:
     """Winch and what follows from it, rows as :data:`WINCH` and what else is wanted name them; ``sea`` if it heaves."""
 
     def motion(t: Array, side: signals.Side) -> Sequence[Array]:
@@ -266,44 +284,37 @@ def _winch_at(law: Winch, sea: Environment | None, elastic: Stretching | None, g
 
 
 @lru_cache(maxsize=128)
-def _signal_at(signal: signals.Signal, steps: Steps, middle: bool = False) -> Array:
+def _signal_at(signal: signals.Signal, steps: Steps, middle: bool = False) -> Rows:
     return _rows(lambda t, side: (signals.evaluate(signal, t, side),), steps, middle=middle)
 
 
-def _kept(function: Any, steps: Steps) -> Callable[..., Array]:
+def _kept(function: Any, steps: Steps) -> Callable[..., Rows]:
     """The function with its memory, or without it at steps that will not come again."""
     return function if steps.shared else function.__wrapped__
 
 
-def _put_signal(out: Any, name: str, signal: signals.Signal, steps: Steps, entered: Array) -> None:
+def _put_signal(out: Any, name: str, signal: signals.Signal, steps: Steps) -> None:
     """A signal into a field of records, shape (2 or 3, steps); those of absent signals stay zero."""
     if signal:
-        _put(out, (name,), _kept(_signal_at, steps)(signal, steps, len(out) > MIDDLE), entered)
+        _put(out, (name,), _kept(_signal_at, steps)(signal, steps, len(out) > MIDDLE), steps)
 
 
-def _put(out: Any, names: Sequence[str], rows: Array, entered: Array) -> None:
-    """Rows, shape (names, 3, steps), into fields of records, shape (2 or 3, steps), at the start where it is looked at.
+def _put(out: Any, names: Sequence[str], rows: Rows, steps: Steps) -> None:
+    """Rows into fields of records, shape (2 or 3, steps), at the start where the plant looks at it.
 
     Fields lie far apart in memory, so that writing them costs more than working them out.
     """
-    for name, row in zip(names, rows, strict=False):
-        out[START][name][entered] = row[START][entered]
-        for column in range(END, len(out)):
-            out[column][name] = row[column]
+    for name, start, *others in zip(names, *rows, strict=False):
+        out[START][name][steps.entered] = start
+        for column, row in enumerate(others, start=END):
+            out[column][name] = row
 
 
-def _rows(function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = False) -> Array:
-    """Functions of time at start, end and middle of every step, shape (functions, 3, steps).
-
-    Only motors look at the ``middle``.
-    """
+def _rows(function: Callable[[Array, signals.Side], Sequence[Array]], steps: Steps, *, middle: bool = False) -> Rows:
+    """Functions of time; only motors look at the ``middle``."""
     if steps.jumps.size:
-        starts, ends = function(steps.start, "right"), function(steps.end, "left")
+        starts, ends = function(steps.start[steps.entered], "right"), function(steps.end, "left")
     else:  # nothing jumps: each knot serves as the end of one step and the start of the next
         knots = function(np.append(steps.start, steps.end[-1]), "right")
-        starts, ends = [k[:-1] for k in knots], [k[1:] for k in knots]
-    rows = np.zeros((len(starts), 3, steps.start.size))
-    rows[:, START], rows[:, END] = starts, ends
-    if middle:
-        rows[:, MIDDLE] = function(0.5 * (steps.start + steps.end), "right")
-    return rows
+        starts, ends = [k[:1] for k in knots], [k[1:] for k in knots]
+    return (starts, ends, function(0.5 * (steps.start + steps.end), "right")) if middle else (starts, ends)

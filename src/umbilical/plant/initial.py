@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, interpolation_row
@@ -26,6 +28,7 @@ def initial_slopes(scenario: Scenario) -> np.ndarray:
     return _projection() @ slope_of_shape(scenario, sigma)
 
 
+@cache
 def _projection() -> np.ndarray:
     """From a function at the points of a fine quadrature to its projection on the element's nodes, shape (5, 12)."""
     at_points = np.array([interpolation_row(p) for p in _POINTS])

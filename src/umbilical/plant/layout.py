@@ -9,6 +9,8 @@ What a person reads, and what is stored, lies along the cable: 4 n + 1 nodes fro
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, INTEGRAL, NODES, WEIGHTS, interpolation_row
@@ -64,6 +66,7 @@ def quadrature(elements: int) -> np.ndarray:
     return weights
 
 
+@lru_cache(maxsize=64)
 def probe(sigma: float, elements: int) -> tuple[int, np.ndarray]:
     """Element that holds ``sigma``, and the weights, shape (5,), of its slopes in the displacement gained in it."""
     element = min(int(sigma * elements), elements - 1)
