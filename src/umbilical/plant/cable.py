@@ -300,14 +300,13 @@ def march(x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, lo
     """Take ``loss`` times the velocity off the new rate; then x += weights . (new, old, older)."""
     n, w0, w1, w2 = x.shape[1] // 2, weights[0], weights[1], weights[2]
     for j in range(5):
-        slope, rate0, rate1, rate2 = x[j, :n], new[j, :n], old[j, :n], older[j, :n]
+        slope, slope0, slope1, slope2 = x[j, :n], new[j, :n], old[j, :n], older[j, :n]
+        velocity, velocity0, velocity1, velocity2 = x[j, n:], new[j, n:], old[j, n:], older[j, n:]
         for e in range(n):
-            slope[e] += fma(w0, rate0[e], fma(w1, rate1[e], w2 * rate2[e]))
-        velocity, rate0, rate1, rate2 = x[j, n:], new[j, n:], old[j, n:], older[j, n:]
-        for e in range(n):
-            rate = fma(-loss, velocity[e], rate0[e])
-            rate0[e] = rate
-            velocity[e] += fma(w0, rate, fma(w1, rate1[e], w2 * rate2[e]))
+            slope[e] += fma(w0, slope0[e], fma(w1, slope1[e], w2 * slope2[e]))
+            rate = fma(-loss, velocity[e], velocity0[e])
+            velocity0[e] = rate
+            velocity[e] += fma(w0, rate, fma(w1, velocity1[e], w2 * velocity2[e]))
 
 
 @glue
