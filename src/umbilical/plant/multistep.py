@@ -42,8 +42,11 @@ def courant_limit() -> float:
     low, high = 0.0, 1.0
     for _ in range(30):
         middle = 0.5 * (low + high)
-        stable = amplification(middle * spectrum).max() <= 1.0 + 1e-9
-        low, high = (middle, high) if stable else (low, middle)
+        growing = spectrum[amplification(middle * spectrum) > 1.0 + 1e-9]
+        if growing.size:  # the others do not grow at smaller steps either
+            high, spectrum = middle, growing
+        else:
+            low = middle
     return low
 
 

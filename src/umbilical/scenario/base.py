@@ -21,7 +21,12 @@ class Record(BaseModel):
     """A frozen piece of a scenario: no unknown keys, no coercion from strings, no NaN, no infinity."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", strict=True, allow_inf_nan=False, ser_json_inf_nan="constants"
+        frozen=True,
+        extra="forbid",
+        strict=True,
+        allow_inf_nan=False,
+        ser_json_inf_nan="constants",
+        defer_build=True,  # until a record is first made: one that stands in another has no need of its own validator
     )
 
 
