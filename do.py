@@ -62,6 +62,7 @@ def set_up() -> None:
     if VENV.exists():
         shutil.rmtree(VENV)
     pip = _make_venv()
+    print("do.py: installing the packages of requirements.lock into .venv, a minute or two", flush=True)
     quiet = ("--quiet", "--no-input", "--disable-pip-version-check")
     if not call(*pip, "install", *quiet, "--require-hashes", "--requirement", LOCK):
         raise SystemExit("do.py: the packages of requirements.lock could not be installed (see above).")
@@ -155,6 +156,7 @@ def _first_run(python: str, wheel: Path, pins: Path, environment: Path) -> Itera
     ours = environment / BIN.name / PYTHON.name
     yield call(python, "-m", "venv", "--without-pip", environment)
     with_pip = PYTHON if (BIN / "pip").exists() else sys.executable  # see _make_venv
+    print("do.py: installing the packages of requirements.lock into .venv, a minute or two", flush=True)
     quiet = ("--quiet", "--no-input", "--disable-pip-version-check")
     yield call(with_pip, "-m", "pip", "--python", ours, "install", *quiet, "--constraint", pins, wheel)
     elsewhere = environment / "elsewhere"

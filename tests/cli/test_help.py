@@ -75,3 +75,16 @@ def test_a_shell_is_told_what_could_come_next():
     asked = os.environ | {"_UMBILICAL_COMPLETE": "complete_bash", "COMP_WORDS": "umbilical marg", "COMP_CWORD": "1"}
     done = subprocess.run([sys.executable, "-m", "umbilical"], env=asked, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout.split()) == (0, ["margins"])
+
+
+def test_the_tab_key_offers_commands_options_and_presets():
+    def offered(line: str) -> list[str]:
+        words = {"COMP_WORDS": line, "COMP_CWORD": str(line.count(" ")), "_UMBILICAL_COMPLETE": "complete_bash"}
+        done = subprocess.run(
+            [sys.executable, "-m", "umbilical"], env=os.environ | words, capture_output=True, text=True
+        )
+        return done.stdout.split()
+
+    assert offered("umbilical ma") == ["margins"]
+    assert offered("umbilical margins --len") == ["--lengths"]
+    assert offered("umbilical run paper-d") == ["paper-dead", "paper-dead-adaptive"]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Annotated
 
-from typer import Argument, Option
+from typer import Option
 
 from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Plot
+from umbilical.cli.options import Changes, Force, Json, Plot, Source
 from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, check_target, draw
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def certify(
-    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    scenario: Source,
     changes: Changes = None,
     audit: Annotated[bool, Option("--audit", help="Simulate the ideal and the real loop, and compare.")] = False,
     plot: Plot = None,

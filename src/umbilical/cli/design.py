@@ -6,10 +6,10 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from typer import Argument, BadParameter, Option
+from typer import BadParameter, Option
 
 from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Plot, Thrust, numbers
+from umbilical.cli.options import Changes, Force, Json, Plot, Source, Thrust, numbers
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.run import load_changed
 from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw, schema_beside
@@ -21,7 +21,7 @@ Objective = Literal["ringdown", "rejection", "both"]
 
 
 def design(
-    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    scenario: Source,
     changes: Changes = None,
     objective: Annotated[Objective, Option("--objective", help="What the gains shall serve.")] = "both",
     inner: Annotated[bool, Option("--inner", help="Choose the motor loops' gains, too.")] = False,

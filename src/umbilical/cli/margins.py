@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Option
 
 from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Own, Plot, Thrust, numbers
+from umbilical.cli.options import Changes, Force, Json, Own, Plot, Source, Thrust, numbers
 from umbilical.cli.output import report
 from umbilical.cli.progress import bar
 from umbilical.cli.run import load_changed, own_controller
@@ -18,7 +18,7 @@ GRIDS, FINEST = (32, 64, 128), 256
 
 
 def margins(
-    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result.")],
+    scenario: Source,
     changes: Changes = None,
     lengths: Annotated[
         str | None, Option("--lengths", metavar="L1,L2,...", help="Cable lengths, m; default those of the run.")

@@ -6,7 +6,17 @@ import math
 from pathlib import Path
 from typing import Annotated
 
-from typer import BadParameter, Option
+from typer import Argument, BadParameter, Option
+
+
+def presets_like(incomplete: str) -> list[str]:
+    """Names of scenarios that begin so: what the Tab key offers."""
+    from umbilical.library import preset_names
+
+    return [name for name in preset_names() if name.startswith(incomplete)]
+
+
+Source = Annotated[str, Argument(autocompletion=presets_like, help="A preset's name, a .toml file, or a .nc result.")]
 
 Changes = Annotated[list[str] | None, Option("--set", metavar="KEY=VALUE", help="Change one value; may be repeated.")]
 Plot = Annotated[Path | None, Option("--plot", metavar="FILE", help="Draw it: .png, .pdf or .svg.")]

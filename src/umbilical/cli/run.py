@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
-from umbilical.cli.options import Changes, Force, Json, Own, Plot
+from umbilical.cli.options import Changes, Force, Json, Own, Plot, presets_like
 from umbilical.cli.output import print_json, print_result, report
 from umbilical.cli.targets import PICTURES, check_target, draw
 from umbilical.errors import FileError, OutputError, Problem, ScenarioError
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 
 def run(
-    scenario: Annotated[str, Argument(help="A preset's name, a .toml file, or a .nc result to run again.")],
+    scenario: Annotated[
+        str, Argument(autocompletion=presets_like, help="A preset's name, a .toml file, or a .nc result to run again.")
+    ],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.nc", help="Store the result (NetCDF4).")] = None,
     plot: Plot = None,

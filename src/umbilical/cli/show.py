@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.options import Json
+from umbilical.cli.options import Json, presets_like
 from umbilical.cli.output import print_json, print_result
 from umbilical.faces.text import paragraph, table
 
@@ -19,7 +19,12 @@ _ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "versi
 
 
 def show(
-    file: Annotated[str, Argument(help="A .nc result, a .toml scenario, study or operation, or a preset's name.")],
+    file: Annotated[
+        str,
+        Argument(
+            autocompletion=presets_like, help="A .nc result, a .toml scenario, study or operation, or a preset's name."
+        ),
+    ],
     metric: Annotated[
         list[str] | None, Option("--metric", metavar="NAME", help="Of a study: show this one; may be repeated.")
     ] = None,
