@@ -13,7 +13,7 @@ import argparse
 from benchmarks import measure_all
 from umbilical.cli.output import print_json, print_result
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 
 def main() -> None:
@@ -31,7 +31,7 @@ def main() -> None:
         print_json(found.document())
     else:
         rows = [(r.name, f"{r.value:.4g}", r.unit, _times(r.speed), r.note) for r in found.rows]
-        print_result(f"{found.headline}\n\n{table([('', '', '', 'x real time', ''), *rows], right=(1, 3))}")
+        print_result(f"{found.headline}\n\n{text_table([('', '', '', 'x real time', ''), *rows], right=(1, 3))}")
 
 
 def _times(speed: float | None) -> str:

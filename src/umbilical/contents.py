@@ -23,7 +23,7 @@ CONTENTS = "contents"
 """Attribute that says what a result held when it was written: sizes and names."""
 
 
-def text(value: Any) -> str:
+def text_rule(value: Any) -> str:
     """Rule of a text."""
     return "" if isinstance(value, str) else "must be a text"
 
@@ -83,7 +83,7 @@ def stated_sizes(data: xarray.Dataset) -> dict[str, int]:
     return json.loads(data.attrs[CONTENTS])["sizes"]
 
 
-def check(data: xarray.Dataset, rules: dict[str, Rule], may_shrink: str, origin: str) -> None:
+def check_contents(data: xarray.Dataset, rules: dict[str, Rule], may_shrink: str, origin: str) -> None:
     """Refuse a result whose attributes break a rule, or that no longer holds what it says.
 
     Args:

@@ -86,7 +86,7 @@ def write(path: str | os.PathLike[str], content: bytes, *, force: bool = False) 
     ...     write(folder + "/note.txt", b"short").read_bytes()
     b'short'
     """
-    check(path, force=force)
+    check_free(path, force=force)
     named = Path(path)
     target = named.resolve() if named.is_symlink() else named
     try:
@@ -100,7 +100,7 @@ def write(path: str | os.PathLike[str], content: bytes, *, force: bool = False) 
     return named
 
 
-def check(path: str | os.PathLike[str], *, force: bool = False) -> None:
+def check_free(path: str | os.PathLike[str], *, force: bool = False) -> None:
     """Refuse a file that :func:`write` could not write, as far as that can be seen beforehand.
 
     Raises:

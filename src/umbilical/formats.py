@@ -86,7 +86,7 @@ def _first_line(error: Exception) -> str:
     return (str(error).splitlines() or [""])[0] or type(error).__name__
 
 
-def to_csv(data: xarray.Dataset) -> bytes:
+def _to_csv(data: xarray.Dataset) -> bytes:
     """The time series as a table: a column for each channel of time, and for each motor of a motor channel.
 
     Two comment lines come first (what it is; the unit of every column), then the names. What lies along the cable is
@@ -137,4 +137,4 @@ def to_mat(data: xarray.Dataset) -> bytes:
     return b"MATLAB 5.0 MAT-file, written by Umbilical".ljust(116) + file.getvalue()[116:]
 
 
-EXPORTS: dict[str, Callable[[xarray.Dataset], bytes]] = {"csv": to_csv, "mat": to_mat}
+EXPORTS: dict[str, Callable[[xarray.Dataset], bytes]] = {"csv": _to_csv, "mat": to_mat}

@@ -9,7 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from umbilical import files
-from umbilical.contents import check, instant, json_of, kind_of, one_of, pairs, refuse, text, whole_number, wrong_array
+from umbilical.contents import (
+    check_contents,
+    instant,
+    json_of,
+    kind_of,
+    one_of,
+    pairs,
+    refuse,
+    text_rule,
+    whole_number,
+    wrong_array,
+)
 from umbilical.coordinates import dimensions
 from umbilical.errors import FileError, ScenarioError
 from umbilical.formats import from_netcdf
@@ -37,11 +48,11 @@ def open_run(path: str | os.PathLike[str]) -> Run:
     >>> umbilical.open_run("run.nc").metrics["tip_peak"] == run.metrics["tip_peak"]
     True
     """
-    from umbilical.scenario.document import parse
+    from umbilical.scenario.document import parse_document
 
     data = _of_a_run(path)
     try:
-        scenario = parse(data.attrs["scenario"], f"{path}: the scenario inside")
+        scenario = parse_document(data.attrs["scenario"], f"{path}: the scenario inside")
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
     refuse(wrong_times(data, scenario.duration, over=data.attrs["status"] == Status.COMPLETED.name), str(path))
@@ -58,10 +69,10 @@ def controller_name(path: str | os.PathLike[str]) -> str:
     return _of_a_run(path).attrs.get(CONTROLLER, "")
 
 
-_ORIGIN = dict.fromkeys(("title", "convention", "scenario", "scenario_hash", "reason"), text)
-_VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text)
+_ORIGIN = dict.fromkeys(("title", "convention", "scenario", "scenario_hash", "reason"), text_rule)
+_VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text_rule)
 _ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
-_SOMETIMES = {SNAPS: pairs, CONTROLLER: text}
+_SOMETIMES = {SNAPS: pairs, CONTROLLER: text_rule}
 
 
 def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
@@ -69,7 +80,7 @@ def _of_a_run(path: str | os.PathLike[str]) -> xarray.Dataset:
     if (kind := kind_of(data)) != "run":
         raise FileError(f"{path}: this is the result of a {kind}, not of a run")
     some = {name: rule for name, rule in _SOMETIMES.items() if name in data.attrs}
-    check(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number} | some, "time", str(path))
+    check_contents(data, _ORIGIN | _ENDING | _VERSIONS | {"seed": whole_number} | some, "time", str(path))
     refuse(filter(None, _wrong_arrays(data)), str(path))
     return data
 

@@ -19,7 +19,7 @@ from umbilical.certificate.setting import loop_of
 from umbilical.plant import signals, winch
 from umbilical.relations.tension import tension
 from umbilical.scenario.environment import Environment
-from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov
+from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov_of_run
 
 TABLE = {"kind": "table", "times": [0.0, 3.0, 7.0, 10.0, 14.0, 17.0, 21.0, 25.0, 30.0],
          "values": [0.0, 2.5, 2.1, -1.0, -3.0, -1.2, 2.9, 4.0, 3.9]}  # fmt: skip
@@ -99,7 +99,7 @@ def test_the_vessel_and_loads_along_the_cable_are_bounded() -> None:
 def test_start_is_that_of_a_run(initial: dict[str, Any]) -> None:
     scenario = umbilical.load("paper", {GAIN: 5.0, "initial": initial, "duration": 0.05, "output.interval": 0.01})
     certificate = umbilical.certify(scenario)
-    _, value = lyapunov(umbilical.simulate(ideal_loop(scenario)), certificate)
+    _, value = lyapunov_of_run(umbilical.simulate(ideal_loop(scenario)), certificate)
     assert lyapunov_of(certificate.loop, certificate.weights, certificate.start) == pytest.approx(value[0], rel=2e-3)
 
 
@@ -231,7 +231,7 @@ def test_runs_of_the_ideal_loop_stay_below_their_bounds(name: str) -> None:
     certificate = umbilical.certify(scenario)
     assert certificate.holds
     run = umbilical.simulate(ideal_loop(scenario))
-    time, value = lyapunov(run, certificate)
+    time, value = lyapunov_of_run(run, certificate)
     start = lyapunov_of(certificate.loop, certificate.weights, certificate.start)
     assert largest_ratio(value, bound(certificate, time, max(start, float(value[0])))) <= 1.0 + 1e-3
     of_cable = cable_function(run.scenario, read(run), certificate.weights)
@@ -248,5 +248,5 @@ def test_without_its_jumps_the_bound_of_v_is_broken() -> None:
     scenario = umbilical.load("paper", {GAIN: 10.0, "duration": 20.0} | LOADED["a pulse on the ROV"])
     certificate = umbilical.certify(scenario)
     deaf = replace(certificate, loads=certificate.loads._replace(force_jumps=()))
-    time, value = lyapunov(umbilical.simulate(ideal_loop(scenario)), certificate)
+    time, value = lyapunov_of_run(umbilical.simulate(ideal_loop(scenario)), certificate)
     assert value.max() > 10.0 > bound(deaf, time).max()

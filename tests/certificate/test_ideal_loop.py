@@ -142,11 +142,11 @@ def test_boundary_weight_carries_its_rate() -> None:
 
 def test_a_simulation_decays_at_the_exact_rate() -> None:
     """Ideal loop, beta = 10, the last half of two minutes."""
-    from umbilical.studies.audit import ideal_loop, lyapunov
+    from umbilical.studies.audit import ideal_loop, lyapunov_of_run
 
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": 10.0, "duration": 120.0})
     certificate = umbilical.certify(scenario)
-    time, value = lyapunov(umbilical.simulate(ideal_loop(scenario)), certificate)
+    time, value = lyapunov_of_run(umbilical.simulate(ideal_loop(scenario)), certificate)
     late = time > 40.0
     slope = -np.polyfit(time[late], np.log(value[late]), 1)[0]
     assert slope == pytest.approx(certificate.exact_rate, rel=0.05)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from umbilical.cli.terminal import printable
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 posix = pytest.mark.skipif(os.name == "nt", reason="streams and signals of POSIX")
 EVIL = "\x1b]0;owned\x07\x1b[31m\u202ered\x9b1m\r\udcff"
@@ -114,11 +114,11 @@ def test_a_request_to_terminate_keeps_the_result_as_ctrl_c_does(umbilical, monke
 def test_a_table_is_wrapped_to_the_width_that_is_asked_for(monkeypatch):
     rows = [("key", "1.0", "a meaning " * 20), ("longer key", "2.0", "short")]
     monkeypatch.setenv("COLUMNS", "60")
-    lines = table(rows).splitlines()
+    lines = text_table(rows).splitlines()
     assert max(map(len, lines)) <= 60
     assert lines[1].startswith(" " * 19 + "meaning")
     monkeypatch.delenv("COLUMNS")
-    assert len(table(rows).splitlines()) == 2
+    assert len(text_table(rows).splitlines()) == 2
 
 
 def test_the_description_of_a_scenario_is_wrapped_too(umbilical, monkeypatch):

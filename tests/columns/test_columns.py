@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray
 
-from umbilical.columns import Choice, Columns, Series, factor, read_columns, series_of
+from umbilical.columns import ColumnChoice, Columns, Series, factor, read_columns, series_of
 from umbilical.errors import FileError, Problem
 
 
@@ -17,13 +17,13 @@ def columns(text: str | bytes) -> Columns:
 
 
 def series(text: str | bytes, **options: object) -> Series:
-    found = series_of(columns(text), Choice(**options), "here.file")  # type: ignore[arg-type]
+    found = series_of(columns(text), ColumnChoice(**options), "here.file")  # type: ignore[arg-type]
     assert isinstance(found, Series), found
     return found
 
 
 def problem(text: str | bytes, **options: object) -> Problem:
-    found = series_of(columns(text), Choice(**options), "here.file")  # type: ignore[arg-type]
+    found = series_of(columns(text), ColumnChoice(**options), "here.file")  # type: ignore[arg-type]
     assert isinstance(found, list)
     return found[0]
 
@@ -160,7 +160,7 @@ def test_netcdf_with_units_and_dates(tmp_path: Path) -> None:
         {"time": ("time", np.array([10.0, 11.0, 12.0]), {"units": "seconds since 2026-01-01"})},
     )
     data.to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
-    found = series_of(read_columns(tmp_path / "a.nc"), Choice(value="sway"), "k")
+    found = series_of(read_columns(tmp_path / "a.nc"), ColumnChoice(value="sway"), "k")
     assert isinstance(found, Series)
     assert (found.points.tolist(), found.values.tolist()) == ([0.0, 1.0, 2.0], [0.01, 0.02, 0.04])
 

@@ -12,7 +12,7 @@ from tests.support.verdicts import assert_holds, each
 from umbilical.verify import manufactured
 from umbilical.verify.cases import Case
 from umbilical.verify.references import manufactured as exact
-from umbilical.verify.references.manufactured import Problem
+from umbilical.verify.references.manufactured import StringProblem
 
 
 @each(manufactured.CASES)
@@ -23,15 +23,15 @@ def test_case(case: Case) -> None:
 @pytest.mark.parametrize(
     "pr",
     [
-        Problem(4.0),
-        Problem(-4.0),
-        Problem(3.0, steady=True),
-        Problem(3.0, weight=400.0, cable_weight=13.0, vessel=0.4),
-        Problem(4.0, sea=manufactured.AT_SEA),
+        StringProblem(4.0),
+        StringProblem(-4.0),
+        StringProblem(3.0, steady=True),
+        StringProblem(3.0, weight=400.0, cable_weight=13.0, vessel=0.4),
+        StringProblem(4.0, sea=manufactured.AT_SEA),
     ],
     ids=["growing", "shrinking", "steady winch", "lighter in water", "at sea"],
 )
-def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
+def test_the_loads_are_those_of_the_equations(pr: StringProblem) -> None:
     """(A0), (A1) and (A2) of docs/theory.md applied to y by sympy, at points and instants of no meaning."""
     sea: Any = pr.sea
     x, t = sympy.symbols("x t", real=True)
@@ -72,14 +72,14 @@ def test_the_loads_are_those_of_the_equations(pr: Problem) -> None:
         found = [
             exact.displacement(pr, sigma, instant),
             exact.velocity(pr, sigma, instant),
-            exact.load(pr, sigma, np.array(instant)),
+            exact.cable_load(pr, sigma, np.array(instant)),
         ]
         for ours, q in zip(found, derived[:3], strict=True):
             np.testing.assert_allclose(ours, q(place, instant), rtol=1e-11, atol=1e-11)
-        tip = float(exact.force(pr, np.array([instant]))[0])
+        tip = float(exact.tip_force(pr, np.array([instant]))[0])
         assert tip == pytest.approx(float(derived[3](place[-1], instant)), rel=1e-11)
 
 
 @pytest.mark.parametrize("problem", manufactured.TERMS_OFF.values(), ids=manufactured.TERMS_OFF)
-def test_the_start_is_at_rest(problem: Problem) -> None:
+def test_the_start_is_at_rest(problem: StringProblem) -> None:
     assert not exact.velocity(problem, np.linspace(0.0, 1.0, 7), 0.0).any()

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 import umbilical
 from tests.support.certificates import GAIN
-from umbilical.plots.certificate import draw_lyapunov, plot_certificate
+from umbilical.plots.certificate import draw_bounds, plot_certificate
 from umbilical.studies.audit import Audit, audit
 
 
@@ -20,7 +20,7 @@ def audited() -> Audit:
 def test_axis_of_v_fits_what_is_drawn(audited: Audit) -> None:
     """The real loop starts far above its bound, with its motors at rest: its start must be in the picture."""
     ax = Figure().add_subplot()
-    draw_lyapunov(ax, audited.certificate, audited)
+    draw_bounds(ax, audited.certificate, audited)
     low, high = ax.get_ylim()
     left, right = ax.get_xlim()
     assert audited.real[0] > 5.0 * audited.bound.max()

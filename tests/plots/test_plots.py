@@ -16,7 +16,7 @@ from umbilical import Run, load, plots, simulate
 from umbilical.cli.plot import Kind
 from umbilical.errors import OutputError
 from umbilical.plots.channels import ESTIMATES
-from umbilical.plots.figure import at_sigma, draw
+from umbilical.plots.figure import at_sigma, draw_channel
 
 SINGLE = {
     "tip": plots.plot_tip,
@@ -151,8 +151,8 @@ def test_chatter_is_a_band_from_the_lowest_to_the_highest_value(run):
     axes, flat = Figure().add_subplot(), run["tip_displacement"].copy(data=np.zeros(run["time"].size))
     fast = flat.copy(data=np.where(np.arange(flat.size) % 2, 3.0, -2.0))
     repeated = fast.isel(time=np.arange(2000) % fast.size).assign_coords(time=np.arange(2000.0))
-    draw(axes, flat)
-    draw(axes, repeated, "fast")
+    draw_channel(axes, flat)
+    draw_channel(axes, repeated, "fast")
     (band,) = axes.collections
     heights = np.asarray(band.get_paths()[0].vertices)[:, 1]
     assert (len(axes.lines), heights.min(), heights.max()) == (1, -2.0, 3.0)

@@ -25,12 +25,12 @@ def test_case(case: Case) -> None:
 
 def test_a_fixed_undamped_cable_decays_by_no_more_than_the_step_takes() -> None:
     """The leading error of the multistep method is ``3/8 w^4 dt^3``, 1/s; the grid takes less from these modes."""
-    poles = engine.poles(hanging_string.hanging(HangingString()), 12)
+    poles = engine.poles(hanging_string.hung(HangingString()), 12)
     np.testing.assert_allclose(-np.real(poles), 3.0 / 8.0 * np.imag(poles) ** 4 * 1e-9, rtol=0.01, atol=1e-12)
 
 
 def test_no_mode_of_the_grid_grows() -> None:
-    assert np.real(step_poles(hanging_string.hanging(HangingString(), grid__elements=24))).max() < 1e-9
+    assert np.real(step_poles(hanging_string.hung(HangingString(), grid__elements=24))).max() < 1e-9
 
 
 @pytest.mark.parametrize("length", PRINTED)

@@ -23,9 +23,9 @@ def test_every_preset_of_the_string_is_held_beside_the_rope() -> None:
 
 def test_the_manufactured_fields_are_derivatives_of_the_place() -> None:
     """W, DW/Dt and what is differentiated along the cable, by differences at material and at fixed points."""
-    problem, t, x = manufactured_rope.Problem(-4.0), 0.7, np.array([3.0, 21.0, 48.0])
+    problem, t, x = manufactured_rope.RopeProblem(-4.0), 0.7, np.array([3.0, 21.0, 48.0])
 
-    def at(far: float, late: float) -> manufactured_rope.Fields:
+    def at(far: float, late: float) -> manufactured_rope.RopeFields:
         """Fields where the material is that is at x now, and ``far`` metres on."""
         length, now = problem.winch(t + late)[0], problem.winch(t)[0]
         return manufactured_rope.fields(problem, (x + far + length - now) / length, t + late)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from umbilical.run import Run, Status, assemble
-from umbilical.scenario.document import parse
+from umbilical.scenario.document import parse_document
 
 SCENARIO = """
 name = "small"
@@ -55,7 +55,7 @@ def make_run(motors: int = 2, samples: int = 21, **changes) -> Run:
         "timing": {"simulate_s": 0.5},
         "notices": ("first, with a line\nbreak", "second: \u03b2 = 5 m/s"),
     }
-    return assemble(parse(SCENARIO), channels, **(ending | changes))
+    return assemble(parse_document(SCENARIO), channels, **(ending | changes))
 
 
 @pytest.fixture(name="make_run")

@@ -200,7 +200,7 @@ def test_a_link_is_followed_and_one_that_leads_nowhere_is_refused(tmp_path):
     link.symlink_to(real)
     for force in (False, True):
         with pytest.raises(OutputError, match=r"a link to .*real\.nc, which is not there"):
-            files.check(link, force=force)
+            files.check_free(link, force=force)
         with pytest.raises(OutputError, match="which is not there"):
             files.write(link, b"new", force=force)
     real.write_bytes(b"old")

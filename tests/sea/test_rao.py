@@ -13,7 +13,7 @@ from umbilical.errors import ScenarioError
 from umbilical.scenario.ship import MOTIONS, RaoShip
 from umbilical.screening.criteria import parse_criterion
 from umbilical.sea import BoxVessel, RaoVessel, Spectrum, vessel_of
-from umbilical.sea.rao_checks import covered, sea_problems, table_problems, told
+from umbilical.sea.rao_checks import assumed_of_table, covered, sea_problems, table_problems
 from umbilical.verify.references.sea import CONVENTIONS, rao_rows
 
 BOX = BoxVessel(93.0, 20.0, 6.6, 0.75)
@@ -131,7 +131,7 @@ def test_heave_alone_says_which_sign_was_assumed() -> None:
     none: dict[str, Any] = {part: () for n in MOTIONS if n != "heave" for part in (n, f"{n}_phase")}
     alone = RaoShip(**PLAIN | none)
     assert not [*table_problems(alone)]
-    assert "lag is taken as declared" in " ".join(told(alone))
+    assert "lag is taken as declared" in " ".join(assumed_of_table(alone))
 
 
 def test_a_sea_beyond_the_table_is_refused() -> None:
@@ -148,7 +148,7 @@ def test_what_a_table_moves_in_shorter_waves_can_be_declared() -> None:
         assert not [*sea_problems(ship, Spectrum(2.0, 4.0), 2.0)]
         found, end = (np.array(ship.motions(omega, 2.0)) for omega in (shorter, last))
         assert found == pytest.approx(share * end.repeat(2, axis=1))
-        assert "outside the 2.42 to 25.1 s" in " ".join(told(RaoShip(**PLAIN | {"outside": outside})))
+        assert "outside the 2.42 to 25.1 s" in " ".join(assumed_of_table(RaoShip(**PLAIN | {"outside": outside})))
 
 
 def test_headings_far_apart_are_not_interpolated() -> None:

@@ -11,7 +11,7 @@ import pytest
 import umbilical
 from tests.support.certificates import GAIN, HALF_SINE, fixed, hauled_in
 from umbilical.certificate import bound
-from umbilical.studies.audit import audit, ideal_loop, identity_residual, largest_ratio, lyapunov
+from umbilical.studies.audit import audit, ideal_loop, identity_residual, largest_ratio, lyapunov_of_run
 
 EXCESS, IDENTITY = 1e-3, 2e-3
 
@@ -28,7 +28,7 @@ CASES: dict[str, umbilical.Scenario] = {
 def test_v_of_the_ideal_loop_stays_below_its_bound(name: str) -> None:
     certificate = umbilical.certify(CASES[name])
     run = umbilical.simulate(ideal_loop(CASES[name]))
-    time, value = lyapunov(run, certificate)
+    time, value = lyapunov_of_run(run, certificate)
     assert run.status is umbilical.Status.COMPLETED
     assert largest_ratio(value, bound(certificate, time, float(value[0]))) <= 1.0 + EXCESS
     assert identity_residual(run, certificate, value) < IDENTITY
@@ -37,7 +37,7 @@ def test_v_of_the_ideal_loop_stays_below_its_bound(name: str) -> None:
 def test_a_rate_five_times_as_large_is_refuted() -> None:
     """Negative control: the exact decay is 2.7 times the certified one."""
     certificate = umbilical.certify(CASES["at rest, 5"])
-    time, value = lyapunov(umbilical.simulate(ideal_loop(CASES["at rest, 5"])), certificate)
+    time, value = lyapunov_of_run(umbilical.simulate(ideal_loop(CASES["at rest, 5"])), certificate)
     boast = replace(certificate, rates=5.0 * certificate.rates)
     assert largest_ratio(value, bound(boast, time, float(value[0]))) > 1.2
 
@@ -46,7 +46,7 @@ def test_energy_grows_where_nothing_can_be_certified() -> None:
     """Hauling in from 500 m to 350 m at beta = 0.01: section 7 of the model says by about a fifth."""
     scenario = hauled_in(0.01, **HALF_SINE)
     certificate = umbilical.certify(scenario)
-    _, value = lyapunov(umbilical.simulate(ideal_loop(scenario)), certificate)
+    _, value = lyapunov_of_run(umbilical.simulate(ideal_loop(scenario)), certificate)
     assert not certificate.holds
     assert 1.15 < value[-1] / value[0] < 1.3
 

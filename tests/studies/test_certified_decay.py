@@ -17,7 +17,7 @@ from tests.support.certificates import GAIN
 from umbilical import Certificate
 from umbilical.certificate import bound
 from umbilical.errors import ScenarioError
-from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov
+from umbilical.studies.audit import ideal_loop, largest_ratio, lyapunov_of_run
 
 GAINS, DURATION, EXCESS = 200, 16.0, 1e-3
 WORKERS = 2
@@ -73,7 +73,7 @@ def seen(certificate: Certificate) -> Seen:
     perfect = ideal_loop(certificate.scenario).replace({"output.interval": 0.05})
     run = umbilical.simulate(perfect)
     assert run.status is umbilical.Status.COMPLETED
-    time, value = lyapunov(run, certificate)
+    time, value = lyapunov_of_run(run, certificate)
     start = float(value[0])
     decay = -np.log(value[-1] / start) / time[-1]
     boast = replace(certificate, rates=5.0 * certificate.rates)

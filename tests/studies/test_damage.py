@@ -14,10 +14,10 @@ import xarray
 from tests.support.studies import small_study
 from umbilical.errors import FileError, OutputError
 from umbilical.formats import to_netcdf
-from umbilical.studies.journal import Journal, entries, is_whole, to_line
+from umbilical.studies.journal import Journal, entries, is_whole_line, to_line
 from umbilical.studies.results import is_study_file, open_study
 from umbilical.studies.rows import NAMES
-from umbilical.studies.store import fingerprint
+from umbilical.studies.store import study_fingerprint
 from umbilical.studies.sweep import sweep
 from umbilical.studies.tune import tune
 
@@ -50,12 +50,12 @@ def test_a_line_carries_a_checksum_of_all_of_it():
     """CRC-32, here by its polynomial: any single bit that flips is noticed."""
     line = to_line([1, [0.5, "a"]])
     assert line == b'%08x [1,[0.5,"a"]]\n' % by_polynomial(b'[1,[0.5,"a"]]')
-    assert is_whole(line)
+    assert is_whole_line(line)
     for place in range(8 * len(line)):
         flipped = bytearray(line)
         flipped[place // 8] ^= 1 << place % 8
-        assert not is_whole(bytes(flipped)), place
-    assert not any(is_whole(line[:length]) for length in range(len(line)))
+        assert not is_whole_line(bytes(flipped)), place
+    assert not any(is_whole_line(line[:length]) for length in range(len(line)))
 
 
 def test_a_line_damaged_between_others_is_refused_by_its_number(copy, whole):
@@ -139,7 +139,7 @@ WORDS = {
 def test_parts_that_would_not_fit_are_not_mixed(copy, key):
     """Each key of the fingerprint alone is enough, the kernels too; the file is left as it is."""
     manifest = json.loads((copy / "manifest.json").read_text())
-    assert {name: manifest[name] for name in WORDS} == fingerprint(STUDY, "sweep")
+    assert {name: manifest[name] for name in WORDS} == study_fingerprint(STUDY, "sweep")
     (copy / "manifest.json").write_text(json.dumps({**manifest, key: "other"}))
     before = (copy / "journal.txt").read_bytes()
     with pytest.raises(FileError, match=f"begun with {WORDS[key]}"):
@@ -150,10 +150,10 @@ def test_parts_that_would_not_fit_are_not_mixed(copy, key):
 def test_the_fingerprint_knows_the_kernels_by_their_sources(monkeypatch):
     from umbilical import compile as compiling
 
-    before = fingerprint(STUDY, "sweep")
+    before = study_fingerprint(STUDY, "sweep")
     assert before["kernels"] == compiling.cache_folder().name
     monkeypatch.setattr(compiling, "cache_folder", lambda: Path("/elsewhere/0123"))
-    assert fingerprint(STUDY, "sweep") == {**before, "kernels": "0123"}
+    assert study_fingerprint(STUDY, "sweep") == {**before, "kernels": "0123"}
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "5", '{"task": "sweep"}', "\xff", "[" * 100_000])

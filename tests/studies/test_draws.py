@@ -7,8 +7,8 @@ import pytest
 from scipy import stats
 
 from tests.support.studies import small_study
-from umbilical.studies.designs import child_seed, points, size
-from umbilical.studies.distributions import Choice, Grid, LogUniform, Normal, Uniform, draw
+from umbilical.studies.designs import child_seed, design_size, points
+from umbilical.studies.distributions import Choice, GridPoints, LogUniform, Normal, Uniform, draw_value
 from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 
@@ -25,13 +25,17 @@ CONTINUUM = [None, None, None]
     ],
 )
 def test_quantiles_are_those_of_the_distribution(distribution, truth):
-    assert np.allclose([draw(distribution, share) for share in SHARES], truth.ppf(SHARES), rtol=1e-9)
+    assert np.allclose([draw_value(distribution, share) for share in SHARES], truth.ppf(SHARES), rtol=1e-9)
 
 
 def test_every_single_value_is_equally_likely():
-    chosen = [draw(Choice(kind="choice", values=("a", "b", "c")), share) for share in SHARES]
+    chosen = [draw_value(Choice(kind="choice", values=("a", "b", "c")), share) for share in SHARES]
     assert {name: chosen.count(name) for name in "abc"} == {"a": 333, "b": 333, "c": 333}
-    assert [draw(Grid(kind="grid", low=0.0, high=1.0, count=3), share) for share in (0.1, 0.5, 0.9)] == [0.0, 0.5, 1.0]
+    assert [draw_value(GridPoints(kind="grid", low=0.0, high=1.0, count=3), share) for share in (0.1, 0.5, 0.9)] == [
+        0.0,
+        0.5,
+        1.0,
+    ]
 
 
 @pytest.mark.parametrize(
@@ -43,19 +47,19 @@ def test_every_single_value_is_equally_likely():
     ],
 )
 def test_steps_begin_at_the_lowest_value_and_stay_below_the_highest(low, high, step, expected):
-    assert {draw(Uniform(kind="uniform", low=low, high=high, step=step), share) for share in SHARES} == expected
+    assert {draw_value(Uniform(kind="uniform", low=low, high=high, step=step), share) for share in SHARES} == expected
 
 
 def intervals(distribution) -> dict[float, float]:
     """Probability of each value, exactly: the shares at which the quantile function changes, found by bisection."""
     found, below = {}, 0.0
     while below < 1.0:
-        value, above = draw(distribution, np.nextafter(below, 1.0)), 1.0
-        if draw(distribution, 1.0) != value:
+        value, above = draw_value(distribution, np.nextafter(below, 1.0)), 1.0
+        if draw_value(distribution, 1.0) != value:
             low = below
             while above - low > 1e-12:
                 middle = (low + above) / 2.0
-                low, above = (middle, above) if draw(distribution, middle) == value else (low, middle)
+                low, above = (middle, above) if draw_value(distribution, middle) == value else (low, middle)
         found[value], below = above - below, above
     return found
 
@@ -69,7 +73,7 @@ def intervals(distribution) -> dict[float, float]:
         (Uniform(kind="uniform", low=-0.3, high=0.3, step=0.1), [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]),
         (Uniform(kind="uniform", low=0.0, high=1e-12, step=2e-13), [0.0, 2e-13, 4e-13, 6e-13, 8e-13, 1e-12]),
         (Uniform(kind="uniform", low=5.0, high=6.0, step=1.0), [5.0, 6.0]),
-        (Grid(kind="grid", low=1.0, high=7.0, count=7), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
+        (GridPoints(kind="grid", low=1.0, high=7.0, count=7), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]),
         (Choice(kind="choice", values=(3, 1, 2)), [3, 1, 2]),
     ],
 )
@@ -85,7 +89,7 @@ def test_a_design_is_the_same_again_and_another_with_another_seed(method):
     first, again, other = (points(method, 40, CONTINUUM, seed) for seed in (1, 1, 2))
     assert np.array_equal(first, again)
     assert not np.array_equal(first, other)
-    assert first.shape == (size(method, 40, CONTINUUM), 3)
+    assert first.shape == (design_size(method, 40, CONTINUUM), 3)
     assert first.min() >= 0.0
     assert first.max() <= 1.0
 

@@ -12,7 +12,7 @@ from umbilical.errors import ScenarioError
 from umbilical.formats import to_netcdf
 from umbilical.studies import engines, room
 from umbilical.studies.members import Draws
-from umbilical.studies.results import assemble
+from umbilical.studies.results import assemble_study
 from umbilical.studies.rows import NAMES, Cell, Row
 from umbilical.studies.sweep import sweep
 from umbilical.studies.tune import tune
@@ -28,10 +28,10 @@ def rows(members: int, arms: int, reason: str = ""):
 def peak_of(study, reason: str = "") -> int:
     """Bytes at most while a result is assembled and written, imports not counted."""
     small = study.model_copy(update={"members": 16})
-    to_netcdf(assemble(small, rows(16, len(study.arms))).data)
+    to_netcdf(assemble_study(small, rows(16, len(study.arms))).data)
     tracemalloc.start()
     try:
-        to_netcdf(assemble(study, rows(study.members, len(study.arms), reason)).data)
+        to_netcdf(assemble_study(study, rows(study.members, len(study.arms), reason)).data)
         return tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
@@ -59,9 +59,9 @@ def test_what_the_machine_cannot_hold_is_refused_with_the_number(monkeypatch, tm
         assert [problem.key for problem in caught.value.problems] == ["members"]
         assert not (tmp_path / "out").exists()
     most = int(caught.value.problems[0].bound.split()[2].rstrip(","))
-    room.check_memory(study.model_copy(update={"members": most}))
+    room.check_study_memory(study.model_copy(update={"members": most}))
     with pytest.raises(ScenarioError):
-        room.check_memory(study.model_copy(update={"members": most + 1}))
+        room.check_study_memory(study.model_copy(update={"members": most + 1}))
 
 
 def test_a_grid_counts_its_own_members():

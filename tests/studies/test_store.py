@@ -210,7 +210,7 @@ def test_killed_in_the_middle_of_a_write_it_resumes_to_the_same_bytes(tmp_path, 
 
 def test_a_journal_that_forgot_its_checksums_would_be_noticed(whole, tmp_path, monkeypatch):
     """Negative control of the cuts above: half a line that is believed ends in an error or in other bytes."""
-    monkeypatch.setattr(journal, "is_whole", lambda line: True)
+    monkeypatch.setattr(journal, "is_whole_line", lambda line: True)
     shutil.copytree(whole, tmp_path / "out")
     (tmp_path / "out" / "study.nc").unlink()
     text = (whole / "journal.txt").read_bytes()

@@ -20,7 +20,7 @@ from umbilical.studies import engines, rows
 from umbilical.studies.cluster import connect, dask, on_client
 from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
-from umbilical.studies.results import assemble, open_study
+from umbilical.studies.results import assemble_study, open_study
 from umbilical.studies.rows import STATUSES
 from umbilical.studies.statistics import reasons
 from umbilical.studies.sweep import disk_needed, sweep, worst
@@ -52,7 +52,7 @@ def test_the_result_does_not_depend_on_who_works(study, reference, name):
 def test_nor_on_the_order(study, reference):
     draws = Draws(study)
     backwards = [rows.run_member(draws, draws.member(number)) for number in range(len(draws), 0, -1)]
-    assert to_netcdf(assemble(study, backwards).data) == reference
+    assert to_netcdf(assemble_study(study, backwards).data) == reference
 
 
 def test_another_seed_is_another_result(reference):
@@ -80,7 +80,7 @@ def test_a_killed_dask_worker_costs_nothing(reference):
         killer.join()
     assert killed
     assert sorted(row.number for row in found) == list(range(1, 25))
-    assert to_netcdf(assemble(slow, found).data) == expected
+    assert to_netcdf(assemble_study(slow, found).data) == expected
 
 
 def test_no_scheduler_is_said_plainly(study):

@@ -12,7 +12,7 @@ from umbilical.errors import ScenarioError
 from umbilical.studies import engines, tune
 from umbilical.studies.constraints import CONSTRAINTS
 from umbilical.studies.load import load_study
-from umbilical.studies.search import Verdict, front, search
+from umbilical.studies.search import TrialVerdict, front, search
 from umbilical.studies.study import Study
 
 GAIN = [{"key": "control.disturbance_observer.gain", "low": 1.0, "high": 20.0}]
@@ -33,7 +33,7 @@ def test_a_known_minimum_is_found():
 
     def bowl(point):
         tried.append(((point[0] - 0.3) ** 2 + (point[1] - 0.8) ** 2, point))
-        return Verdict((tried[-1][0],), ())
+        return TrialVerdict((tried[-1][0],), ())
 
     search(bowl, 2, 1, 120, 1)
     assert min(tried)[1] == pytest.approx((0.3, 0.8), abs=0.1)
@@ -44,7 +44,7 @@ def test_a_condition_moves_the_minimum_to_its_border():
     found = []
 
     def judge(point):
-        verdict = Verdict((point[0],), (0.5 - point[0],))
+        verdict = TrialVerdict((point[0],), (0.5 - point[0],))
         found.append((point[0], verdict))
         return verdict
 
@@ -59,7 +59,7 @@ def test_two_objectives_leave_a_front():
     found = []
 
     def judge(point):
-        verdict = Verdict((1e-3 + point[0] ** 2, 1e-3 + (point[0] - 1.0) ** 2), ())
+        verdict = TrialVerdict((1e-3 + point[0] ** 2, 1e-3 + (point[0] - 1.0) ** 2), ())
         found.append(verdict)
         return verdict
 
@@ -85,8 +85,8 @@ def test_cut_and_resumed_a_search_ends_with_the_same_bytes(tmp_path, monkeypatch
     (tmp_path / "cut").mkdir()
     shutil.copy(tmp_path / "whole" / "manifest.json", tmp_path / "cut")
     (tmp_path / "cut" / "journal.txt").write_bytes(text[: int(0.6 * len(text))])
-    calls, judge = [], tune.judge
-    monkeypatch.setattr(tune, "judge", lambda *a: calls.append(a) or judge(*a))
+    calls, judge = [], tune.judge_gains
+    monkeypatch.setattr(tune, "judge_gains", lambda *a: calls.append(a) or judge(*a))
     tune.tune(study, tmp_path / "cut", resume=True)
     assert 0 < len(calls) < 12
     for file in ("tuning.json", "tuned-1.toml"):

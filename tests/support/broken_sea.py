@@ -102,13 +102,13 @@ def stretch_that_leads(patch: pytest.MonkeyPatch) -> None:
 
 def drive_that_leads(patch: pytest.MonkeyPatch) -> None:
     """A winch that knows the heave before it comes."""
-    right = response.residual
+    right = response.residual_heave
 
     def wrong(drive: Any, omega: np.ndarray) -> np.ndarray:
         return right(drive and drive.model_copy(update={"lag": -drive.lag}), omega)
 
     for room in (response, sea):
-        patch.setattr(room, "residual", wrong)
+        patch.setattr(room, "residual_heave", wrong)
 
 
 def waves_that_repeat_themselves(patch: pytest.MonkeyPatch) -> None:

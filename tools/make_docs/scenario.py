@@ -11,13 +11,13 @@ from pydantic.fields import FieldInfo
 from writing import code, page, table
 
 from umbilical.scenario.base import LARGEST, Record
-from umbilical.scenario.fields import TAGS, bounds, choices, element, records, tag, word
+from umbilical.scenario.fields import TAGS, bounds, choices, element_type, records, tag, word
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.signals import Signal
 from umbilical.scenario.text import literal
 
 Kinds = tuple[type[Record], ...]
-TERMS: Kinds = records(element(Signal))
+TERMS: Kinds = records(element_type(Signal))
 
 
 def scenario() -> str:
@@ -55,7 +55,7 @@ def collect(kinds: Kinds, key: str, found: dict[Kinds, list[str]]) -> None:
 
 def inside(field: FieldInfo) -> Kinds:
     """Kinds of table a field holds, itself or in a list."""
-    return records(field.annotation) or records(element(field.annotation))
+    return records(field.annotation) or records(element_type(field.annotation))
 
 
 def section(keys: list[str], kinds: Kinds) -> str:
@@ -97,7 +97,7 @@ def allowed(field: FieldInfo) -> str:
     if (inner := inside(field)) == TERMS:
         return "[signal](#signals)"
     if inner:
-        return "tables" if element(field.annotation) else "table"
+        return "tables" if element_type(field.annotation) else "table"
     plain = copy(field)
     plain.metadata = [rule for rule in field.metadata if LARGEST not in map(abs, limits(rule))]
     named = {bool: "true, false", str: "text"}

@@ -93,7 +93,7 @@ def front(searched: tune.Tuned) -> str:
     """Some of the front, the two gains of the paper on the same draws, and what the linearised loop says of each."""
     names = [label_of(objective) for objective in tune.tuning_of(searched.study).objectives]
     rows = [["", *(f"`{key}`" for key in PAPERS), *names, "thrust up to", "phase", "lag"]]
-    papers = tune.Trial(PAPERS, tune.judge(searched.study, PAPERS, {}, threads(default_jobs())))
+    papers = tune.TriedGains(PAPERS, tune.judge_gains(searched.study, PAPERS, {}, threads(default_jobs())))
     shown = np.unique(np.linspace(0, len(searched.front) - 1, SHOWN).round().astype(int))
     told_of = [(f"`{searched.files[k]}`", searched.front[k]) for k in shown]
     for label, trial in (*told_of, ("the two of the paper", papers)):

@@ -11,7 +11,7 @@ from umbilical.scenario import Scenario
 from umbilical.stability.judgement import judge, usual_lengths
 from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult
-from umbilical.studies.statistics import against, at, beyond, percent, ratios, told
+from umbilical.studies.statistics import against, at, beyond, interval_text, percentage, ratios
 
 TOLD = ("tip_peak", "tip_rms", "mid_rms", "effort_rms")
 PD, STIFF, PROPOSED = "PD", "PD, stiff", "proposed"
@@ -30,9 +30,9 @@ def headline(result: StudyResult) -> str:
         f"{stiff.ratio.value:.2f} times as far away as a PD with stiffer gains.**",
         f"On {paper.members} draws with a fault each, the median of the largest displacement is {pd:.3g} m with the",
         f"paper's PD, {millimetres(mine)} with the stiff one and {millimetres(its)} with the proposed law, which is",
-        f"the nearer of these two in {percent(stiff.better)} of the draws. The thrust asked for is the same",
-        f"(ratio {told(effort.ratio)}). So most of what looks like the merit of the law is the weakness of the gains",
-        "it is compared with. What it has over the stiff PD: no draw is lost, of which the stiff PD lost",
+        f"the nearer of these two in {percentage(stiff.better)} of the draws. The thrust asked for is the same",
+        f"(ratio {interval_text(effort.ratio)}). So most of what looks like the merit of the law is the weakness of",
+        "the gains it is compared with. What it has over the stiff PD: no draw is lost, of which the stiff PD lost",
         f"{lost}, there is more room for lag, and less noise gets into the thrust; its gain margin is smaller (below).",
         "The stiff PD measures what the proposed law measures, through the same observer; its gains are ours.",
     )
@@ -45,7 +45,7 @@ def table(result: StudyResult) -> str:
     for arm in result.arms:
         cells = [f"{at(result, m, arm, 0.5).value:.3g} ({at(result, m, arm, 0.95).value:.3g})" for m in TOLD]
         lost = np.count_nonzero(~result.ended(arm, "COMPLETED"))
-        rows.append([arm, str(lost), percent(beyond(result, "tip_peak", arm, limit)), *cells])
+        rows.append([arm, str(lost), percentage(beyond(result, "tip_peak", arm, limit)), *cells])
     return rows_of(rows)
 
 
@@ -54,7 +54,7 @@ def versus(result: StudyResult) -> str:
     rows = [["arm", "against", *(f"`{name}`" for name in TOLD)]]
     for arm, other in _PAIRS:
         cells = [against(result, name, arm, other) for name in TOLD]
-        rows.append([arm, other, *(f"{told(c.ratio, 3)}; {100 * c.better.value:.3g} %" for c in cells)])
+        rows.append([arm, other, *(f"{interval_text(c.ratio, 3)}; {100 * c.better.value:.3g} %" for c in cells)])
     return rows_of(rows)
 
 
@@ -64,7 +64,7 @@ def loops(result: StudyResult, noisy: StudyResult) -> str:
     scenarios = dict(zip(result.arms, Draws(result.study).undrawn(), strict=True))
     for arm in (PD, STIFF, PROPOSED):
         medians = [at(noisy, metric, arm, 0.5) for metric in ("tip_peak", "effort_rms")] if arm in noisy.arms else []
-        rows.append([arm, *margins(scenarios[arm]), *(told(median, 3) for median in medians or [])])
+        rows.append([arm, *margins(scenarios[arm]), *(interval_text(median, 3) for median in medians or [])])
         rows[-1] += ["-"] * (len(rows[0]) - len(rows[-1]))
     return rows_of(rows)
 

@@ -9,7 +9,7 @@ from typer import Option
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Json, Plot, Source
 from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 
 if TYPE_CHECKING:
     from umbilical.certificate import Certificate
@@ -38,7 +38,7 @@ def certify(
     chosen = load_changed(scenario, changes or [])
     check_target(plot, PICTURES, force=force)
     found, checked = _certify(chosen, audit)
-    files = draw(lambda: found.plot(audit=checked), plot, force=force)
+    files = draw_files(lambda: found.plot(audit=checked), plot, force=force)
     return conclude_result(found, checked, files=files, as_json=as_json)
 
 

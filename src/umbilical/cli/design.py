@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from typer import BadParameter, Option
 
 from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Plot, Source, Thrust, numbers
+from umbilical.cli.options import Changes, Force, Json, Plot, Source, Thrust, number_list
 from umbilical.cli.progress import announce_compilation, bar
 from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw, schema_beside
+from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw_files, schema_beside
 
 if TYPE_CHECKING:
     from umbilical.synthesis.iterate import Limits
@@ -60,7 +60,7 @@ def design(
     if not 0.0 <= gain <= 100.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
         raise BadParameter("margins are 0 to 100 dB, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
     demands = Demands(10.0 ** (gain / 20.0), math.radians(phase), delay)
-    choice = numbers(periods, "--periods", above=0.0, what="times above 0 s, such as 0.0005,0.001")
+    choice = number_list(periods, "--periods", above=0.0, what="times above 0 s, such as 0.0005,0.001")
     announce_compilation()
     with bar("designing") as advance:
         found = compute(
@@ -74,7 +74,7 @@ def design(
         text = SCHEMA_LINE + found.after.scenario.to_toml()
         written["scenario"] = str(files.write(out, text.encode(), force=force))
         written |= schema_beside(out)
-    written |= draw(found.plot, plot, force=force)
+    written |= draw_files(found.plot, plot, force=force)
     return conclude_result(found, files=written, as_json=as_json)
 
 

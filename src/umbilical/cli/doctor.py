@@ -11,7 +11,7 @@ from typing import Any
 
 from umbilical.cli.options import Json
 from umbilical.cli.output import print_json, print_result
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
 PARTNERS = (
@@ -40,7 +40,7 @@ def doctor(
     if as_json:
         print_json(findings)
     else:
-        print_result("\n\n".join(f"{topic}\n{table(_rows(found))}" for topic, found in findings.items()))
+        print_result("\n\n".join(f"{topic}\n{text_table(_rows(found))}" for topic, found in findings.items()))
     return 0 if all(findings["packages"].values()) else 6
 
 

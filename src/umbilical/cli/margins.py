@@ -7,11 +7,11 @@ from typing import Annotated
 from typer import Option
 
 from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Own, Plot, Source, Thrust, numbers
+from umbilical.cli.options import Changes, Force, Json, Own, Plot, Source, Thrust, number_list
 from umbilical.cli.output import report
 from umbilical.cli.progress import bar
 from umbilical.cli.run import load_changed, own_controller
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 
 GRIDS, FINEST = (32, 64, 128), 256
 """Elements of the grids that are asked where none are named, and of the last one where those do not agree."""
@@ -54,13 +54,13 @@ def margins(
     check_target(plot, PICTURES, force=force)
     from umbilical.stability.margins import margins as compute
 
-    elements = GRIDS if grid is None else [round(number) for number in numbers(grid, "--grid") if number]
+    elements = GRIDS if grid is None else [round(number) for number in number_list(grid, "--grid") if number]
     finest = FINEST if grid is None else 0
     own = own_controller(controller, chosen)
     with bar("margins") as advance:
         found = compute(
             chosen,
-            numbers(lengths, "--lengths") or None,
+            number_list(lengths, "--lengths") or None,
             operating_thrust,
             controller=own,
             elements=elements,
@@ -70,4 +70,4 @@ def margins(
     if plot and found.doubt:
         report(f"{plot}: not drawn, there are no margins to draw")
         plot = None
-    return conclude_result(found, files=draw(found.plot, plot, force=force), as_json=as_json)
+    return conclude_result(found, files=draw_files(found.plot, plot, force=force), as_json=as_json)

@@ -9,9 +9,9 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -276,7 +276,7 @@ def _report(found: Operability) -> list[str]:
     headings = ", ".join(f"{angle:.0f}" for angle in np.degrees(found.heading))
     shown, all_ = f"{len(rows)} x {len(columns)}", f"{found.depth.size} depths x {found.period.size} periods"
     return [
-        table([head, *body], right=list(range(1, len(head)))),
+        text_table([head, *body], right=list(range(1, len(head)))),
         f"  worst of the headings {headings} deg; T1: longest axial period of cable and body",
         *("  >: no limit below the steepest sea of the period, a seventh of its wavelength",) * bool(steepest.any()),
         *(f"  shown: {shown} of {all_}; --json and --out have all",) * (worst.size > len(rows) * len(columns)),
@@ -296,7 +296,7 @@ def _descents(found: Lowering) -> list[str]:
     waiting = f"  where to wait: {found.waiting_depth:.4g} m, outside the resonance"
     notes = (f"  note: {notice}" for notice in found.notices())
     return [
-        table(rows, right=[1, 2, 3]),
+        text_table(rows, right=[1, 2, 3]),
         waiting,
         *notes,
         f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}",
@@ -316,4 +316,4 @@ def _store(found: Any, out: Path | None, plot: Path | None, force: bool) -> dict
         from umbilical.formats import to_netcdf
 
         files["result"] = str(write(out, to_netcdf(found.to_dataset()), force=force))
-    return files | draw(found.plot, plot, force=force)
+    return files | draw_files(found.plot, plot, force=force)

@@ -40,7 +40,7 @@ Own = Annotated[
 Thrust = Annotated[float | None, Option("--operating-thrust", metavar="N", help="Where the motors are linearised, N.")]
 
 
-def numbers(
+def number_list(
     words: str | None, option: str, *, above: float = -math.inf, what: str = "numbers such as 300,400"
 ) -> list[float]:
     """Comma-separated finite numbers; none where the option was not given.

@@ -13,7 +13,7 @@ from umbilical.cli.terminal import (
 )
 from umbilical.errors import ScenarioError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
-from umbilical.faces.text import plain
+from umbilical.faces.text import finite_only
 
 EXIT_CODES = {
     0: "completed",
@@ -30,7 +30,7 @@ EXIT_CODES = {
 
 def print_json(document: Mapping[str, Any]) -> None:
     """One JSON object, to stdout."""
-    print_result(json.dumps(plain(document), indent=2, allow_nan=False))
+    print_result(json.dumps(finite_only(document), indent=2, allow_nan=False))
 
 
 def refusal(error: BaseException, text: str, code: int) -> dict[str, Any]:

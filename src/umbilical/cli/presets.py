@@ -12,7 +12,7 @@ from umbilical.cli.options import Force
 from umbilical.cli.output import print_result
 from umbilical.cli.targets import SCHEMA_LINE, schema_beside
 from umbilical.errors import FileError
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.scenario.presets import Presets
@@ -82,7 +82,7 @@ def examples(
         if path.suffix in (".py", ".ipynb")
     }
     if copy is None:
-        print_result(table([(name, _purpose(path)) for name, path in found.items()]))
+        print_result(text_table([(name, _purpose(path)) for name, path in found.items()]))
         return
     for name, path in found.items():
         files.make_folder((copy / name).parent)
@@ -128,11 +128,11 @@ def _find(name: str) -> tuple[str, str]:
 
 
 def _descriptions() -> str:
-    from umbilical.scenario.document import read
+    from umbilical.scenario.document import read_document
 
     def described(presets: Presets) -> str:
-        texts = {name: read(presets.text(name), name)["description"] for name in presets.names}
-        return table([(name, _first_sentence(text)) for name, text in texts.items()])
+        texts = {name: read_document(presets.text(name), name)["description"] for name in presets.names}
+        return text_table([(name, _first_sentence(text)) for name, text in texts.items()])
 
     return "\n\n".join(f"{kind}, for `umbilical {verb}`\n{described(own)}" for kind, (verb, own) in _kinds().items())
 

@@ -10,7 +10,7 @@ from typer import Argument, Option
 
 from umbilical.cli.options import Changes, Force, Json, Own, Plot, presets_like
 from umbilical.cli.output import print_json, print_result, report
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 from umbilical.errors import FileError, OutputError, Problem, ScenarioError
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ def _write(run: Run, out: Path | None, plot: Path | None, force: bool) -> dict[s
     if plot and run["time"].size < 2:
         report(f"{plot}: not drawn, the run ended before there was anything to draw")
         return files
-    return files | draw(run.plot, plot, force=force)
+    return files | draw_files(run.plot, plot, force=force)
 
 
 def _report(run: Run, files: dict[str, str], source: str) -> str:

@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json, presets_like
 from umbilical.cli.output import print_json, print_result
-from umbilical.faces.text import paragraph, table
+from umbilical.faces.text import text_table, wrapped
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -95,7 +95,7 @@ def _show_run(file: str, as_json: bool) -> None:
         print_json(run.to_dict() | {"files": {"result": file}})
         return
     sizes = ", ".join(f"{name} {size}" for name, size in run.data.sizes.items())
-    origin = table([(name, str(run.data.attrs[name])) for name in _ORIGIN])
+    origin = text_table([(name, str(run.data.attrs[name])) for name in _ORIGIN])
     print_result(f"{run.summary()}\n\nholds: {sizes}\n{origin}")
 
 
@@ -132,9 +132,9 @@ def _inventory(whole: Scenario | Operation, told: str = "") -> str:
         (e.key, _shortened(e.value), e.unit, "assumed" if e.assumed else "", e.meaning)
         for e in inventory(whole, whole.assumed)
     ]
-    parts = [f"{whole.name}, {whole.hash[:12]}", paragraph(whole.description), told, table(entries)]
+    parts = [f"{whole.name}, {whole.hash[:12]}", wrapped(whole.description), told, text_table(entries)]
     if whole.assumed:
-        parts += ["assumed, because no source gives them:", table(list(whole.assumed.items()))]
+        parts += ["assumed, because no source gives them:", text_table(list(whole.assumed.items()))]
     return "\n\n".join(filter(None, parts))
 
 

@@ -9,7 +9,7 @@ from typer import Argument, Option
 from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
 from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 from umbilical.cli.terminal import report
 
 
@@ -37,15 +37,15 @@ def snap(
     from umbilical.cli.confirm import cost
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies.engines import default_jobs
-    from umbilical.studies.snap import check
+    from umbilical.studies.snap import check_seeds
     from umbilical.studies.snap import snap as study
 
     check_target(plot, PICTURES, force=force)
     loaded, workers = load_changed(scenario, changes or []), min(jobs or default_jobs(), seeds)
-    check(loaded, seeds)
+    check_seeds(loaded, seeds)
     report(f"{seeds} seeds of {loaded.duration:g} s, {cost(loaded, seeds, workers)}")
     announce_compilation(loaded)
     with bar("seeds of the sea") as advance:
         found = study(loaded, seeds, workers=workers, progress=advance)
-    files = draw(found.plot, plot if found.completed.any() else None, force=force)
+    files = draw_files(found.plot, plot if found.completed.any() else None, force=force)
     return conclude_result(found, risk, files=files, as_json=as_json)

@@ -21,16 +21,16 @@ def check_target(path: Path | None, kinds: tuple[str, ...], *, force: bool) -> N
         force: whether it may replace a file.
 
     Raises:
-        OutputError: another ending, or as for :func:`umbilical.files.check`.
+        OutputError: another ending, or as for :func:`umbilical.files.check_free`.
     """
     if path is None:
         return
     if path.suffix.lower().removeprefix(".") not in kinds:
         raise OutputError(f"{path}: the name must end with {' or '.join('.' + kind for kind in kinds)}")
-    files.check(path, force=force)
+    files.check_free(path, force=force)
 
 
-def draw(picture: Callable[[], Any], path: Path | None, *, force: bool) -> dict[str, str]:
+def draw_files(picture: Callable[[], Any], path: Path | None, *, force: bool) -> dict[str, str]:
     """Store what a function draws, axes or a figure, where a path was given; the file by its role."""
     if path is None:
         return {}

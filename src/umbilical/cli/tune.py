@@ -12,7 +12,7 @@ from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Anew, Changes, Jobs, Json, Resume, Trust
 from umbilical.cli.output import report
 from umbilical.cli.sweep import load_changed_study, refuse_code_of_results
-from umbilical.cli.targets import PICTURES, check_target, draw
+from umbilical.cli.targets import PICTURES, check_target, draw_files
 from umbilical.faces.tuning import conclusion, document, text
 
 
@@ -69,7 +69,7 @@ def tune(
     files = {"trials": str(folder / "tuning.json")}
     files |= {f"scenario {k}": str(folder / name) for k, name in enumerate(found.files, start=1)}
     if found.front:
-        files |= draw(found.plot, picture, force=force or resume)
+        files |= draw_files(found.plot, picture, force=force or resume)
     return conclude(
         conclusion(found),
         text=lambda: "\n\n".join([text(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),

@@ -30,13 +30,13 @@ def decode(content: bytes, origin: str) -> str:
         return content.decode("cp1252", errors="replace")
 
 
-def parse(text: str, origin: str) -> Parsed:
+def parse_delimited(text: str, origin: str) -> Parsed:
     """Names, units, values, names of columns that are dates, and line numbers; columns of words are left out.
 
     Raises:
         FileError: there is no header or no row, a row has another number of cells, or a cell is no number.
 
-    >>> names, units, values, _, _ = parse("t [s];sway [m]\\n0,0;0,5\\n0,1;0,7\\n", "file")
+    >>> names, units, values, _, _ = parse_delimited("t [s];sway [m]\\n0,0;0,5\\n0,1;0,7\\n", "file")
     >>> names, units["sway"], values["sway"].tolist()
     (('t', 'sway'), 'm', [0.5, 0.7])
     """

@@ -53,7 +53,7 @@ def read_columns(path: Path, content: bytes | None = None) -> Columns:
     data = files.read(path) if content is None else content
     if data.startswith(_NETCDF):
         return _of_netcdf(data, str(path))
-    parsed = delimited.parse(delimited.decode(data, str(path)), str(path))
+    parsed = delimited.parse_delimited(delimited.decode(data, str(path)), str(path))
     return Columns(str(path), *parsed)
 
 

@@ -25,7 +25,7 @@ _KNOTS, _WEIGHTS = 5, (-9.0, 14.0)
 _NINES = re.compile(r"-?9{2,}(\.9*|\.0*)?")
 
 
-class Choice(NamedTuple):
+class ColumnChoice(NamedTuple):
     """What to take of a file.
 
     Attributes:
@@ -62,7 +62,7 @@ class Series(NamedTuple):
     start: float
 
 
-def series_of(columns: Columns, choice: Choice, key: str) -> Series | list[Problem]:
+def series_of(columns: Columns, choice: ColumnChoice, key: str) -> Series | list[Problem]:
     """Take a curve from a file, or say everything that is wrong with it.
 
     Args:
@@ -94,7 +94,7 @@ def series_of(columns: Columns, choice: Choice, key: str) -> Series | list[Probl
     return Series(points - start, _without_drift(points, values, choice.drift) if timed else values, start)
 
 
-def _chosen(columns: Columns, choice: Choice, key: str) -> tuple[str, str] | Problem:
+def _chosen(columns: Columns, choice: ColumnChoice, key: str) -> tuple[str, str] | Problem:
     """Names of both columns."""
     across = choice.across or columns.names[0]
     others = [name for name in columns.names if name != across]
@@ -111,7 +111,7 @@ def _chosen(columns: Columns, choice: Choice, key: str) -> tuple[str, str] | Pro
     return across, str(value)
 
 
-def _scales(columns: Columns, choice: Choice, names: tuple[str, str], key: str) -> Iterator[float | Problem]:
+def _scales(columns: Columns, choice: ColumnChoice, names: tuple[str, str], key: str) -> Iterator[float | Problem]:
     """What both columns are multiplied by."""
     asked = (("across_unit", choice.across_unit, choice.wanted_across), ("unit", choice.unit, choice.wanted))
     for name, (option, given, wanted) in zip(names, asked, strict=True):
@@ -126,14 +126,14 @@ def _scales(columns: Columns, choice: Choice, names: tuple[str, str], key: str) 
             yield scale
 
 
-def _present(columns: Columns, names: tuple[str, str], choice: Choice) -> np.ndarray:
+def _present(columns: Columns, names: tuple[str, str], choice: ColumnChoice) -> np.ndarray:
     """Which rows are taken."""
     points, values = (columns.values[name] for name in names)
     kept = ~np.isin(values, choice.fill)
     return kept & np.isfinite(points) & np.isfinite(values) if choice.blanks else kept
 
 
-def _missing(columns: Columns, names: tuple[str, str], choice: Choice, key: str) -> Iterator[Problem]:
+def _missing(columns: Columns, names: tuple[str, str], choice: ColumnChoice, key: str) -> Iterator[Problem]:
     """Blank cells, and numbers that look like a mark for one."""
     kept = _present(columns, names, choice)
     lines = columns.lines[kept]
@@ -244,7 +244,7 @@ def without_noise(points: np.ndarray, values: np.ndarray, noise: float) -> np.nd
     return smoothed(float(weight))
 
 
-def _too_noisy(values: np.ndarray, choice: Choice, key: str) -> Problem:
+def _too_noisy(values: np.ndarray, choice: ColumnChoice, key: str) -> Problem:
     return Problem(
         f"{key}.noise", f"{choice.noise:g} {choice.wanted}", "less than the values scatter about a straight line",
         f"the values have a standard deviation of {np.std(values):.4g} {choice.wanted}: nothing would be left of them",

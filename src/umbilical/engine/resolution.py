@@ -26,7 +26,7 @@ Measure = Callable[[Scenario], Any]
 """What gives the ``status`` of a run and its ``metrics``."""
 
 
-class Choice(NamedTuple):
+class ChosenGrid(NamedTuple):
     """A grid and what is known of it.
 
     Attributes:
@@ -56,7 +56,7 @@ class Choice(NamedTuple):
         )
 
 
-def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float], None] | None = None) -> Choice:
+def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float], None] | None = None) -> ChosenGrid:
     """The least grid of :data:`GRIDS`, or three quarters of it, on which the peaks are right within ``grid.tolerance``.
 
     Args:
@@ -72,10 +72,10 @@ def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float]
     step = _fine_step(scenario, measure, 0.25 * tolerance)
     found: dict[int, Peaks] = {}
 
-    def judged(elements: int, finer: tuple[int, ...]) -> Choice:
+    def judged(elements: int, finer: tuple[int, ...]) -> ChosenGrid:
         peaks = found[elements] if elements in found else _peaks(scenario, measure, elements, step)
         error = max(difference(peaks, found[more]) for more in finer)
-        return Choice(elements, _taken(scenario, elements, step), finer[-1], error, tolerance)
+        return ChosenGrid(elements, _taken(scenario, elements, step), finer[-1], error, tolerance)
 
     choice = None
     for count, elements in enumerate(GRIDS):

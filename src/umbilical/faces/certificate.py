@@ -8,7 +8,7 @@ from math import isnan
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import shown_unit, table
+from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import CERTIFICATE
 
 if TYPE_CHECKING:
@@ -57,9 +57,9 @@ def _report(certificate: Certificate) -> Iterator[str]:
         yield f"  fix: {fix.fix} ({fix.key} = {fix.value}; {fix.bound})"
     if not certificate.holds and not certificate.fixes:
         yield "  no fix was found: none of the slope gains and slower winches that were tried is certified"
-    yield table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
+    yield text_table([_row(inequality) for inequality in certificate.inequalities], right=[2, 4, 6])
     yield ""
-    yield table(
+    yield text_table(
         [
             (n, _shown(value, 6), shown_unit(CERTIFICATE[n].unit), CERTIFICATE[n].meaning)
             for n, value in _numbers(certificate)
@@ -69,7 +69,7 @@ def _report(certificate: Certificate) -> Iterator[str]:
     yield from _consequences(certificate)
     yield ""
     yield "  the paper's own conditions, as printed (docs/certificates.md says which signs were restored):"
-    yield table([_row(inequality) for inequality in certificate.paper], right=[2, 4, 6])
+    yield text_table([_row(inequality) for inequality in certificate.paper], right=[2, 4, 6])
     yield ""
     yield f"  outside the certificate: {'; '.join(certificate.limits) or 'nothing'}"
 
@@ -143,7 +143,7 @@ def _audit_report(audit: Audit) -> Iterator[str]:
             ("real loop", audit.real, "-", audit.real_excess, audit.real_run),
         )
     ]
-    yield table(rows, right=[1, 2, 3, 4])
+    yield text_table(rows, right=[1, 2, 3, 4])
     yield f"  the ideal loop's V is the integral of its exact rate within {audit.identity:.1e} of its largest value"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import shown_unit, table
+from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import METRICS
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ def text(found: Comparison) -> str:
             cells += [_shown(value, 6), _shown(ratio, 4)]
         rows.append([name, shown_unit(METRICS[name].unit), *cells])
     notes = [f"  note: {name}: {n}" for name, run in zip(found.names, found.runs, strict=True) for n in run.notices]
-    return "\n".join([table(rows, right=range(2, len(head))), *notes])
+    return "\n".join([text_table(rows, right=range(2, len(head))), *notes])
 
 
 def _shown(value: float | None, digits: int) -> str:

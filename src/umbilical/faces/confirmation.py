@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.studies.confirm import Confirmation
@@ -39,7 +39,7 @@ def text(found: Confirmation) -> str:
         interval = f"{share.low:.3f} to {share.high:.3f}"
         rows.append((str(criterion), f"{share.value:.3f}", interval, f"{reached.exceeded} of {found.completed.sum()}"))
     return "\n".join([
-        table(rows, right=[1, 2, 3]),
+        text_table(rows, right=[1, 2, 3]),
         "  share used: of the tension or heave that a criterion allows, what is exceeded with its probability within "
         "its time (above 1: it is not kept); Gumbel of the squares of the largest in ten minutes",
         *(f"  note: {notice}" for notice in notices(found)),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from umbilical.faces.conclusion import Conclusion
 from umbilical.faces.margins import document as margins_document
 from umbilical.faces.margins import rows as margin_rows
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.synthesis.design import Design
@@ -60,9 +60,9 @@ def text(found: Design) -> str:
     """What the verdict rests on, as people read it."""
     lines = [f"  missing: {words}" for words in found.missing]
     lines += [f"  limit: {words}" for words in found.limited_by]
-    lines += [table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
+    lines += [text_table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
     for side, words in ((found.before, "before"), (found.after, "after")):
-        lines += [f"  margins {words}", table(margin_rows(side.report), right=range(7))]
+        lines += [f"  margins {words}", text_table(margin_rows(side.report), right=range(7))]
     lines.append(f"  not asked: {NOT_ASKED}")
     return "\n".join(lines)
 

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.stability.grid import GridJudgement
@@ -91,7 +91,7 @@ def text(report: MarginReport) -> str:
         return "  no margins are given"
     if report.controller:
         thrust += f"; {report.controller} linearised with the ROV at rest"
-    lines = [thrust, table(rows(report), right=range(7))]
+    lines = [thrust, text_table(rows(report), right=range(7))]
     lines += [f"  at {j.length:g} m: {line}" for j in report.judgements for line in _remarks(j)]
     outside = f"  outside these margins: {'; '.join(report.limits) or 'nothing'}"
     return "\n".join([*lines, *_grids(report), outside])

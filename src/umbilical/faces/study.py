@@ -8,11 +8,11 @@ import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import paragraph, shown_unit, table
+from umbilical.faces.text import shown_unit, text_table, wrapped
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
 from umbilical.studies.rows import STATUSES
-from umbilical.studies.statistics import percent, told
+from umbilical.studies.statistics import interval_text, percentage
 from umbilical.studies.sweep import worst
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _REASONS = 3
 def text(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
     """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst."""
     study, chosen = result.study, metrics or _usual(result)
-    parts = [paragraph(study.description)]
+    parts = [wrapped(study.description)]
     parts += [_endings(result), _reasons(result)]
     for metric in chosen:
         parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
@@ -65,7 +65,7 @@ def endings(result: StudyResult) -> dict[str, dict[str, int]]:
 def _endings(result: StudyResult) -> str:
     rows = [("how they ended", *STATUSES)]
     rows += [(arm, *(str(count) for count in found.values())) for arm, found in endings(result).items()]
-    return table(rows, right=range(1, len(STATUSES) + 1))
+    return text_table(rows, right=range(1, len(STATUSES) + 1))
 
 
 def _reasons(result: StudyResult) -> str:
@@ -75,15 +75,17 @@ def _reasons(result: StudyResult) -> str:
         for arm in result.arms
         for reason in statistics.reasons(result, arm)[:_REASONS]
     ]
-    return table([("why not all completed", "", ""), *rows]) if rows else ""
+    return text_table([("why not all completed", "", ""), *rows]) if rows else ""
 
 
 def _distribution(result: StudyResult, metric: str) -> str:
     """Median and 95 % quantile of each arm."""
     word = METRICS[metric]
     rows = [(f"{metric} [{shown_unit(word.unit) or '1'}]", "median", "95 % quantile")]
-    rows += [(arm, *(told(statistics.at(result, metric, arm, share)) for share in _SHARES)) for arm in result.arms]
-    return f"{table(rows)}\n  {word.meaning}"
+    rows += [
+        (arm, *(interval_text(statistics.at(result, metric, arm, share)) for share in _SHARES)) for arm in result.arms
+    ]
+    return f"{text_table(rows)}\n  {word.meaning}"
 
 
 def _comparison(result: StudyResult, metric: str, first: str) -> str:
@@ -93,16 +95,16 @@ def _comparison(result: StudyResult, metric: str, first: str) -> str:
     for arm in result.arms:
         if arm != first:
             found = statistics.against(result, metric, arm, first)
-            rows.append((arm, told(found.ratio), told(found.difference), percent(found.better)))
-    return table(rows) if len(rows) > 1 else ""
+            rows.append((arm, interval_text(found.ratio), interval_text(found.difference), percentage(found.better)))
+    return text_table(rows) if len(rows) > 1 else ""
 
 
 def _exceedances(result: StudyResult) -> str:
     limits = result.study.limits.items()
     rows = [("probability of", *(f"{name} > {limit:g}" for name, limit in limits))]
     for arm in result.arms:
-        rows.append((arm, *(percent(statistics.beyond(result, name, arm, limit)) for name, limit in limits)))
-    return table(rows, right=range(1, len(rows[0])))
+        rows.append((arm, *(percentage(statistics.beyond(result, name, arm, limit)) for name, limit in limits)))
+    return text_table(rows, right=range(1, len(rows[0])))
 
 
 def _worst(result: StudyResult, metric: str) -> str:
@@ -111,7 +113,7 @@ def _worst(result: StudyResult, metric: str) -> str:
         values = result.values(metric, arm)
         found = [f"#{number}: {values[number - 1]:.4g}" for number in worst(result, metric, arm, _WORST)]
         rows.append((arm, *found, *[""] * (_WORST - len(found))))
-    return table(rows, right=range(1, _WORST + 1))
+    return text_table(rows, right=range(1, _WORST + 1))
 
 
 def sensitivity_text(result: StudyResult, metric: str) -> str:
@@ -127,7 +129,7 @@ def sensitivity_text(result: StudyResult, metric: str) -> str:
             continue
         rows = [(f"{metric}, {arm}", "first", "+-", "total or deviation")]
         rows += [(i.name, *(_or_dash(value) for value in i[1:])) for i in found]
-        parts.append(table(rows, right=(1, 2, 3)))
+        parts.append(text_table(rows, right=(1, 2, 3)))
     return "\n\n".join(parts)
 
 
@@ -217,9 +219,9 @@ def describe(study: Study) -> str:
     rows += [(v.name, v.distribution.kind, *(_short(m[v.name]) for m in middle)) for v in draws.variables]
     arms = [("arm", "changes")] + [(a.name, ", ".join(a.changes) or "none") for a in study.arms]
     head = f"{study.name}: {len(draws)} members ({study.design}) in {len(study.arms)} arms of '{study.scenario.name}'"
-    parts = [head, paragraph(study.description), table(rows), table(arms)]
+    parts = [head, wrapped(study.description), text_table(rows), text_table(arms)]
     if study.assumed:
-        parts += ["assumed, because no source gives them:", table(list(study.assumed.items()))]
+        parts += ["assumed, because no source gives them:", text_table(list(study.assumed.items()))]
     return "\n\n".join(filter(None, parts))
 
 

@@ -13,16 +13,16 @@ _NARROWEST = 20
 """Characters of the narrowest column that texts are wrapped in."""
 
 
-def plain(value: Any) -> Any:
+def finite_only(value: Any) -> Any:
     """The same data as JSON can hold it: what is not finite becomes null.
 
-    >>> plain({"a": (1.0, float("nan"))})
+    >>> finite_only({"a": (1.0, float("nan"))})
     {'a': [1.0, None]}
     """
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {str(key): finite_only(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [plain(item) for item in value]
+        return [finite_only(item) for item in value]
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     return value
@@ -33,11 +33,11 @@ def shown_unit(unit: str) -> str:
     return "" if unit == "1" else unit
 
 
-def table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
+def text_table(rows: Sequence[Sequence[str]], right: Sequence[int] = ()) -> str:
     """Rows of cells as aligned columns; those numbered in ``right`` are flush right. Of a line that is too long for the
     terminal (or for ``COLUMNS``) the last cell is wrapped.
 
-    >>> print(table([("a", "1"), ("bb", "10")], right=[1]))
+    >>> print(text_table([("a", "1"), ("bb", "10")], right=[1]))
       a    1
       bb  10
     """
@@ -66,7 +66,7 @@ def markdown(rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in lines)
 
 
-def paragraph(text: str) -> str:
+def wrapped(text: str) -> str:
     """A text in lines that the terminal (or ``COLUMNS``) has room for; as it is where there is neither."""
     return "\n".join(wrap(text, max(room, _NARROWEST))) if (room := width()) else text
 

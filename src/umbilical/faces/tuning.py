@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import table
+from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.studies.tune import Tuned
@@ -37,7 +37,7 @@ def text(found: Tuned) -> str:
         return text
     what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
     more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
-    return f"{text}\n{what}:\n\n{table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
+    return f"{text}\n{what}:\n\n{text_table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
 
 
 def document(found: Tuned) -> dict[str, Any]:

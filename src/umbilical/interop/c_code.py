@@ -19,7 +19,7 @@ from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecisi
 from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.frames import Frame
 from umbilical.interop.c_known import check_known
-from umbilical.interop.c_types import frame_fields, frame_structs, initialiser, literal, value_structs
+from umbilical.interop.c_types import c_literal, frame_fields, frame_structs, initialiser, value_structs
 from umbilical.interop.c_vectors import UPDATES, Vector, vectors
 from umbilical.library import admit
 from umbilical.scenario.scenario import Scenario
@@ -67,7 +67,7 @@ def to_c(
     target = Path(folder)
     files.make_folder(target)
     for name in texts:
-        files.check(target / name, force=force)
+        files.check_free(target / name, force=force)
     return [files.write(target / name, text.encode("utf-8"), force=force) for name, text in texts.items()]
 
 
@@ -88,7 +88,7 @@ def c_files(scenario: Scenario, *, prefix: str = _PREFIX, hold: float | None = N
         "test_vectors.h": template("test_vectors.h"),
         "README.txt": template("README.txt"),
     }
-    return {name: _renamed(fill(text, values), prefix) for name, text in texts.items()}
+    return {name: _renamed(fill_template(text, values), prefix) for name, text in texts.items()}
 
 
 def template(name: str) -> str:
@@ -96,7 +96,7 @@ def template(name: str) -> str:
     return (resources.files("umbilical.interop") / "templates" / name).read_text(encoding="utf-8")
 
 
-def fill(text: str, values: Mapping[str, str]) -> str:
+def fill_template(text: str, values: Mapping[str, str]) -> str:
     """A template with every ``@NAME@`` replaced."""
     return re.sub(r"@([A-Z_]+)@", lambda found: values[found[1]], text)
 
@@ -149,7 +149,7 @@ def _words(scenario: Scenario, settings: CascadeSettings, hold: float | None) ->
         "HASH": scenario.hash,
         "MOTORS": str(motors),
         "ROOM": str(max(1, motors)),
-        "PERIOD": literal(period),
+        "PERIOD": c_literal(period),
         "PERIOD_WORDS": f"{period:g}",
         "HOLD": str(held),
         "HOLD_WORDS": f"{held * period:g} s",
@@ -211,4 +211,4 @@ def _rows(used: set[str], records: Frame, frame: type[Frame]) -> str:
 
 
 def _row(numbers: Iterable[float]) -> str:
-    return "{" + ", ".join(map(literal, numbers)) + "}"
+    return "{" + ", ".join(map(c_literal, numbers)) + "}"

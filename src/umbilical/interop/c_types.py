@@ -12,10 +12,10 @@ from umbilical.frames import Frame
 from umbilical.quantities import find
 
 
-def literal(value: float) -> str:
+def c_literal(value: float) -> str:
     """A number in C99, to the last bit.
 
-    >>> literal(0.1), literal(3), literal(float("-inf"))
+    >>> c_literal(0.1), c_literal(3), c_literal(float("-inf"))
     ('0x1.999999999999ap-4', '3', '-HUGE_VAL')
     """
     if isinstance(value, bool | np.bool_ | int | np.integer):
@@ -86,7 +86,7 @@ def initialiser(value: Any, used: Collection[str], indent: str = "") -> str:
         rows = value.ndim > 1 or value.dtype.names
         return "{\n" + "".join(f"{deeper}{part},\n" for part in parts) + indent + "}" if rows else _row(parts)
     else:
-        return literal(value)
+        return c_literal(value)
     lines = [f"{deeper}.{name} = {initialiser(part, used, deeper)},{_decimal(part)}\n" for name, part in named]
     return "{\n" + "".join(lines) + indent + "}"
 

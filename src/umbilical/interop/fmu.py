@@ -21,7 +21,7 @@ from umbilical import files
 from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecision, TipReadings
 from umbilical.errors import MissingPartnerError, OutputError, expect
 from umbilical.frames import Frame
-from umbilical.interop.c_code import c_files, fill, head, template
+from umbilical.interop.c_code import c_files, fill_template, head, template
 from umbilical.interop.units import base_units
 from umbilical.quantities import find
 from umbilical.scenario.scenario import Scenario
@@ -39,7 +39,7 @@ class Fmu(NamedTuple):
     binaries: str
 
 
-class Variable(NamedTuple):
+class FmiVariable(NamedTuple):
     """A real variable: its name in the FMU, the expression in C, and the quantity that it is."""
 
     name: str
@@ -77,7 +77,7 @@ def to_fmu(scenario: Scenario, path: str | os.PathLike[str], *, hold: float | No
     target = Path(path)
     if target.suffix.lower() != ".fmu":
         raise OutputError(f"{target}: the name must end with .fmu")
-    files.check(target, force=force)
+    files.check_free(target, force=force)
     content = _content(scenario, hold, Path(partner.__file__).parent / "c-code")
     binary, values = _compiled(content, _identifier(scenario), partner)
     return Fmu(files.write(target, _packed({**content, **binary}), force=force), values)
@@ -108,7 +108,7 @@ def _own_files(scenario: Scenario, guid: str) -> dict[str, str]:
         "REALS": "\n".join(f"    case {k}: return &m->{v.expression};" for k, v in enumerate([*inputs, *outputs])),
     }
     values |= _description(scenario, inputs, outputs)
-    return {name: fill(template(name), values) for name in ("fmu.c", "modelDescription.xml")}
+    return {name: fill_template(template(name), values) for name in ("fmu.c", "modelDescription.xml")}
 
 
 def _guid(texts: Sequence[str]) -> str:
@@ -121,29 +121,31 @@ def _identifier(scenario: Scenario) -> str:
     return "umbilical_" + re.sub(r"\W", "_", scenario.name, flags=re.ASCII)
 
 
-def _inputs(scenario: Scenario) -> list[Variable]:
+def _inputs(scenario: Scenario) -> list[FmiVariable]:
     from umbilical.control.cascade import make_settings
 
     ideal = make_settings(scenario).outer.ideal_rates
     tip = [name for name in TipReadings.fields if ideal or name in ("tip_displacement", "tip_slope")]
     return [
-        *(Variable(name, f"readings.tip.{name}", name) for name in tip),
-        Variable("payout_acceleration", "readings.winch.payout_acceleration", "payout_acceleration"),
+        *(FmiVariable(name, f"readings.tip.{name}", name) for name in tip),
+        FmiVariable("payout_acceleration", "readings.winch.payout_acceleration", "payout_acceleration"),
         *_per_motor(MotorReadings, "readings.motors", len(scenario.motors)),
     ]
 
 
-def _outputs(scenario: Scenario) -> list[Variable]:
-    outer = [Variable(name, f"state.decision.outer.{name}", name) for name in OuterDecision.fields]
+def _outputs(scenario: Scenario) -> list[FmiVariable]:
+    outer = [FmiVariable(name, f"state.decision.outer.{name}", name) for name in OuterDecision.fields]
     return [*outer, *_per_motor(MotorDecision, "state.decision.motors", len(scenario.motors))]
 
 
-def _per_motor(frame: type[Frame], place: str, motors: int) -> list[Variable]:
+def _per_motor(frame: type[Frame], place: str, motors: int) -> list[FmiVariable]:
     """One variable per motor and field; motors are numbered from 1 in names and from 0 in C."""
-    return [Variable(f"{name}[{i + 1}]", f"{place}[{i}].{name}", name) for name in frame.fields for i in range(motors)]
+    return [
+        FmiVariable(f"{name}[{i + 1}]", f"{place}[{i}].{name}", name) for name in frame.fields for i in range(motors)
+    ]
 
 
-def _description(scenario: Scenario, inputs: Sequence[Variable], outputs: Sequence[Variable]) -> dict[str, str]:
+def _description(scenario: Scenario, inputs: Sequence[FmiVariable], outputs: Sequence[FmiVariable]) -> dict[str, str]:
     """What modelDescription.xml says of a scenario."""
     units = sorted({find(v.quantity).unit for v in [*inputs, *outputs]} - {"", "1"})
     variables = [_real(k, v, k < len(inputs)) for k, v in enumerate([*inputs, *outputs])]
@@ -169,7 +171,7 @@ def _unit(unit: str) -> str:
     return f"    <Unit name={quoteattr(unit)}><BaseUnit{exponents}/></Unit>"
 
 
-def _real(reference: int, variable: Variable, is_input: bool) -> str:
+def _real(reference: int, variable: FmiVariable, is_input: bool) -> str:
     quantity = find(variable.quantity)
     kind = 'causality="input" variability="continuous"'
     if not is_input:

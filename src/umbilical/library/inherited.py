@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from umbilical.control.rates import drives_motors
 from umbilical.scenario.control import Control
-from umbilical.scenario.document import read
+from umbilical.scenario.document import read_document
 from umbilical.scenario.findings import Finding, Notice
 from umbilical.scenario.hardware import Motor
 from umbilical.scenario.presets import Presets
@@ -58,7 +58,7 @@ def _chosen() -> tuple[Chosen, ...]:
     found: list[Chosen] = []
     presets = Presets("umbilical.scenario", "preset")
     for name in presets.names:
-        data: Any = read(presets.text(name), name)
+        data: Any = read_document(presets.text(name), name)
         loop, motors = data.get("control", {}).get("motor_loop"), data.get("motors")
         if loop and motors:
             found.append(Chosen(name, loop, motors))

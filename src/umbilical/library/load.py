@@ -12,7 +12,7 @@ from umbilical.errors import FileError, ScenarioError
 from umbilical.library.admit import admit_data
 from umbilical.library.recorded import consequences, forget, read_files
 from umbilical.scenario import Scenario
-from umbilical.scenario.document import read, try_override
+from umbilical.scenario.document import read_document, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest
 
@@ -59,7 +59,7 @@ def load(source: str | os.PathLike[str], overrides: Mapping[str, Any] | None = N
     10.0
     """
     origin = os.fspath(source)
-    own = read(_text(origin), origin)
+    own = read_document(_text(origin), origin)
     data = PRESETS.extended(own, origin)
     if origin not in preset_names() and "extends" in own and "description" not in own:
         data["description"] = f"Changed from {own['extends']}. {data.get('description', '')}".rstrip()

@@ -11,12 +11,12 @@ from typing import Any, NamedTuple
 from pydantic import ValidationError
 
 from umbilical import files
-from umbilical.columns import Choice, read_columns, series_of
+from umbilical.columns import ColumnChoice, read_columns, series_of
 from umbilical.errors import FileError, Problem
 from umbilical.library.rao_file import rao_lists
 from umbilical.scenario.base import Record
 from umbilical.scenario.document import Data, freeze
-from umbilical.scenario.fields import element, records, tag, word
+from umbilical.scenario.fields import element_type, records, tag, word
 from umbilical.scenario.problems import problems_of
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.source import FromFile
@@ -75,7 +75,7 @@ def _filled_from_files(data: Any, annotation: Any, key: str, unit: str) -> Itera
     """Tables with a file, wherever the records allow one."""
     if isinstance(data, list | tuple):
         for number, item in enumerate(data, start=1):
-            yield from _filled_from_files(item, element(annotation), f"{key}.{number}", unit)
+            yield from _filled_from_files(item, element_type(annotation), f"{key}.{number}", unit)
     if not isinstance(data, dict) or (kind := _kind(data, annotation)) is None:
         return
     field = kind.model_fields.get("file")
@@ -133,7 +133,7 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
             _keep(filled, source, content)
         return
     options = source.model_dump(exclude={"name", "sha256"}) | {"jumps": filled.table.get("interpolation") == "linear"}
-    found = series_of(columns, Choice(**options, wanted_across=filled.units[0], wanted=filled.units[1]), key)
+    found = series_of(columns, ColumnChoice(**options, wanted_across=filled.units[0], wanted=filled.units[1]), key)
     if isinstance(found, list):
         yield from found
         return

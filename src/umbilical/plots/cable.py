@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import as_figure, at_sigma, axes_for, axis_label, draw, finish
+from umbilical.plots.figure import as_figure, at_sigma, axes_for, axis_label, draw_channel, finish
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,6 +63,6 @@ def plot_positions(run: Run, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes_for(run, ax)
     for number, (name, sigma) in enumerate(PLACES.items()):
-        draw(ax, at_sigma(run, sigma), f"$x = {name}$", colour=number)
+        draw_channel(ax, at_sigma(run, sigma), f"$x = {name}$", colour=number)
     y = run["displacement"]
     return finish(ax, run, "displacement", axis_label(y))

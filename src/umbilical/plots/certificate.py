@@ -42,7 +42,7 @@ def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Fi
     """
     figure = new_figure(9.0, 8.0)
     of_v, of_rate, of_margin = figure.subplots(3, 1, sharex=True)
-    draw_lyapunov(of_v, certificate, audit)
+    draw_bounds(of_v, certificate, audit)
     draw_rates(of_rate, certificate)
     draw_margins(of_margin, certificate)
     of_margin.set_xlabel("time [s]")
@@ -51,7 +51,7 @@ def plot_certificate(certificate: Certificate, audit: Audit | None = None) -> Fi
     return figure
 
 
-def draw_lyapunov(ax: Axes, certificate: Certificate, audit: Audit | None) -> None:
+def draw_bounds(ax: Axes, certificate: Certificate, audit: Audit | None) -> None:
     """The bounds of V and of V1 + V2 from the start of the ideal run, or of the scenario; V of both runs."""
     if np.isfinite(certificate.rates).all():
         t = audit.time if audit else np.linspace(0.0, float(certificate.edges[-1]), SAMPLES)

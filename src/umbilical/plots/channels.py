@@ -11,7 +11,17 @@ import numpy as np
 from umbilical.analysis.comparison import distinct_names
 from umbilical.errors import expect
 from umbilical.plots.cable import plot_cable, plot_positions
-from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, check_drawable, draw, finish, new_figure, note
+from umbilical.plots.figure import (
+    COLOURS,
+    QUIET,
+    axes_for,
+    axis_label,
+    check_drawable,
+    draw_channel,
+    finish,
+    new_figure,
+    remark,
+)
 from umbilical.plots.rope import plot_tensions
 from umbilical.run import Run
 
@@ -58,14 +68,14 @@ def plot_tip(run: Run | Sequence[Run], *, names: Sequence[str] = (), ax: Axes | 
     ax = axes_for(runs[0], ax)
     labels = list(names) or (list(distinct_names(runs)) if len(runs) > 1 else [""])
     for number, (one, label) in enumerate(zip(runs, labels, strict=True)):
-        draw(ax, one["tip_displacement"], label, number)
+        draw_channel(ax, one["tip_displacement"], label, number)
     y = runs[0]["tip_displacement"]
     return finish(ax, runs[0], y.attrs["long_name"], axis_label(y))
 
 
 def _plot_thrust(run: Run, *, ax: Axes) -> Axes:
-    draw(ax, run["thrust"], "delivered")
-    draw(ax, run["thrust_command"], "commanded", colour=1, dashed=True)
+    draw_channel(ax, run["thrust"], "delivered")
+    draw_channel(ax, run["thrust_command"], "commanded", colour=1, dashed=True)
     return finish(ax, run, "thrust", axis_label(run["thrust"]))
 
 
@@ -82,10 +92,10 @@ def plot_winch(run: Run, *, ax: Axes | None = None) -> Axes:
     '$l$ [m]'
     """
     ax = axes_for(run, ax)
-    draw(ax, run["length"], "length")
+    draw_channel(ax, run["length"], "length")
     ax.plot([], [], color=COLOURS[1], linestyle="--", label="speed, right")
     beside = ax.twinx()
-    draw(beside, run["payout_speed"], colour=1, dashed=True)
+    draw_channel(beside, run["payout_speed"], colour=1, dashed=True)
     beside.set_ylabel(axis_label(run["payout_speed"]))
     beside.spines[["top"]].set_visible(False)
     return finish(ax, run, "winch", axis_label(run["length"]))
@@ -114,13 +124,17 @@ def plot_motors(run: Run, channel: str = "motor_speed", *, ax: Axes | None = Non
     numbers = run["motor"].values
     for place, number in enumerate(numbers):  # each thinner than those below it, which so remain to be seen
         width = 1.2 + 1.4 * (numbers.size - 1 - place) / (numbers.size - 1) if numbers.size > 1 else 1.4
-        draw(ax, run[channel].isel(motor=place), f"motor {number}" if number <= NAMED else "", place, width=width)
+        draw_channel(
+            ax, run[channel].isel(motor=place), f"motor {number}" if number <= NAMED else "", place, width=width
+        )
     if channel == "motor_speed" and run["speed_reference"].any():
         for place in range(numbers.size):
-            draw(ax, run["speed_reference"].isel(motor=place), "" if place else "reference", colour=6, dashed=True)
+            draw_channel(
+                ax, run["speed_reference"].isel(motor=place), "" if place else "reference", colour=6, dashed=True
+            )
     if channel == "motor_voltage":
         _draw_limits(ax, run)
-    note(ax, _between_samples(run, channel))
+    remark(ax, _between_samples(run, channel))
     title = "motor voltage, as commanded" if channel == "motor_voltage" else run[channel].attrs["long_name"]
     return finish(ax, run, title, axis_label(run[channel]))
 
@@ -154,7 +168,7 @@ def _plot_allocation(run: Run, *, ax: Axes) -> Axes:
     for place, number in enumerate(run["kappa_index"].values):
         values = run["kappa"].isel(kappa_index=place)
         size = float(abs(values).max())
-        draw(ax, values / (size or 1.0), rf"$\kappa_{number}$ / {size:.3g}", colour=place, dashed=place > 1)
+        draw_channel(ax, values / (size or 1.0), rf"$\kappa_{number}$ / {size:.3g}", colour=place, dashed=place > 1)
     return finish(ax, run, "adaptive allocation", "")
 
 
@@ -191,8 +205,8 @@ def plot_observers(run: Run, channel: str = "disturbance", *, motor: int = 1, ax
     if shown < truth.sizes["time"]:
         truth, estimate = truth.isel(time=slice(shown)), estimate.isel(time=slice(shown))
         title = f"{title}: the first {float(truth['time'][-1]):.3g} s"
-    draw(ax, truth, "truth")
-    draw(ax, estimate, "estimate", colour=1, dashed=True)
+    draw_channel(ax, truth, "truth")
+    draw_channel(ax, estimate, "estimate", colour=1, dashed=True)
     return finish(ax, run, title, axis_label(truth))
 
 
@@ -218,11 +232,11 @@ def plot_energy(run: Run, *, ax: Axes | None = None) -> Axes:
     '$E$ [J]'
     """
     ax = axes_for(run, ax)
-    draw(ax, run["energy"], "energy", colour=6, dashed=True)
+    draw_channel(ax, run["energy"], "energy", colour=6, dashed=True)
     sizes = {name: float(abs(run[name]).max()) for name in map(str, run.data.data_vars) if name.startswith("work_")}
     large = [name for name, size in sizes.items() if size > NEGLIGIBLE * max(sizes.values())]
     for number, name in enumerate(large):
-        draw(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)
+        draw_channel(ax, run[name], name.removeprefix("work_").replace("_", " "), colour=number % 6, dashed=number >= 6)
     residual = run.metrics.get("energy_balance_residual", float("nan"))
     return finish(ax, run, f"energy and work done on it; balance within {residual:.1e}", axis_label(run["energy"]))
 

@@ -123,7 +123,7 @@ def axis_label(array: xarray.DataArray) -> str:
     return " ".join(part for part in parts if part)
 
 
-def draw(
+def draw_channel(
     ax: Axes, array: xarray.DataArray, label: str = "", colour: int = 0, dashed: bool = False, width: float = 1.4
 ) -> None:
     """One channel of time as a line, or as a band where it turns too often for a line.
@@ -150,7 +150,7 @@ def turns(values: np.ndarray) -> np.ndarray:
     return steps[1:][rising[1:] != rising[:-1]]
 
 
-def note(ax: Axes, text: str) -> None:
+def remark(ax: Axes, text: str) -> None:
     """A remark inside the axes, below on the left."""
     if text:
         ax.text(0.01, 0.02, text, transform=ax.transAxes, fontsize=8, color="#404040", bbox=_PAPER)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, draw, dress, finish, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, axes_for, axis_label, draw_channel, dress, finish, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -69,9 +69,9 @@ def plot_tensions(run: Run, *, ax: Axes | None = None) -> Axes:
     """
     _of_a_rope(run)
     ax = axes_for(run, ax)
-    draw(ax, run["top_tension"], "at the vessel", colour=0)
-    draw(ax, run["end_tension"], "at the body", colour=1)
-    draw(ax, run["lowest_tension"], "smallest along the cable", colour=6, dashed=True)
+    draw_channel(ax, run["top_tension"], "at the vessel", colour=0)
+    draw_channel(ax, run["end_tension"], "at the body", colour=1)
+    draw_channel(ax, run["lowest_tension"], "smallest along the cable", colour=6, dashed=True)
     time, slack = run["time"].values, run["slack_length"].values > 0.0
     if slack.any():
         where = {"where": slack.tolist(), "transform": ax.get_xaxis_transform(), "label": "slack somewhere"}

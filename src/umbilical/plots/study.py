@@ -12,7 +12,7 @@ from umbilical.errors import expect
 from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
-from umbilical.studies.statistics import against, at, beyond, percent, ratios, told
+from umbilical.studies.statistics import against, at, beyond, interval_text, percentage, ratios
 from umbilical.studies.sweep import worst
 
 if TYPE_CHECKING:
@@ -54,8 +54,8 @@ def plot_distribution(result: StudyResult, metric: str = USUAL, *, ax: Axes | No
 def _in_words(result: StudyResult, metric: str, arm: str) -> str:
     """Median, how often the study's limit is exceeded, and the worst members."""
     limit = result.study.limits.get(metric)
-    parts = [f"median {told(at(result, metric, arm, 0.5), 3)}"]
-    parts += [f"beyond {limit:g}: {percent(beyond(result, metric, arm, limit))}"] if limit is not None else []
+    parts = [f"median {interval_text(at(result, metric, arm, 0.5), 3)}"]
+    parts += [f"beyond {limit:g}: {percentage(beyond(result, metric, arm, limit))}"] if limit is not None else []
     parts += [f"worst {', '.join(f'#{number}' for number in worst(result, metric, arm, _WORST))}"]
     return "\n  ".join(parts)
 
@@ -86,7 +86,7 @@ def plot_comparison(result: StudyResult, metric: str = USUAL, *, ax: Axes | None
         ratio = ratios(result, metric, arm, other)
         ratio = np.sort(ratio[np.isfinite(ratio)])
         zeros, ratio = np.count_nonzero(ratio == 0.0), ratio[ratio > 0.0]  # 0: only the other one diverged
-        text = f"{arm}\n  median {told(found.ratio, 3)}"
+        text = f"{arm}\n  median {interval_text(found.ratio, 3)}"
         shares = (zeros + np.arange(1, ratio.size + 1)) / max(found.members, 1)
         ax.step(ratio, shares, where="post", label=text, **_look(colour))
         spread.append(ratio)

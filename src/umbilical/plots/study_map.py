@@ -22,7 +22,7 @@ _SINGLE = 40
 """Up to so many different values each has its own row of cells."""
 
 
-class Axis(NamedTuple):
+class _Axis(NamedTuple):
     """One axis of a map: where each member is on it, the borders of its cells, and names where values are no scale."""
 
     name: str
@@ -118,19 +118,19 @@ def _is_name(result: StudyResult, name: str) -> bool:
     return result[name].dtype.kind not in "fi" or name.endswith(".motor")
 
 
-def _axis(result: StudyResult, name: str) -> Axis:
+def _axis(result: StudyResult, name: str) -> _Axis:
     values = result[name].values
     single, places = np.unique(values, return_inverse=True)
     if _is_name(result, name):
-        return Axis(name, places.astype(float), np.arange(single.size + 1) - 0.5, tuple(map(str, single)))
+        return _Axis(name, places.astype(float), np.arange(single.size + 1) - 0.5, tuple(map(str, single)))
     if single.size > _SINGLE or single.size < 2:
         bins = max(int(np.sqrt(values.size) / 2.0), 4)
-        return Axis(name, values, np.histogram_bin_edges(values, bins))
+        return _Axis(name, values, np.histogram_bin_edges(values, bins))
     middle = (single[1:] + single[:-1]) / 2.0
-    return Axis(name, values, np.concatenate([[2 * single[0] - middle[0]], middle, [2 * single[-1] - middle[-1]]]))
+    return _Axis(name, values, np.concatenate([[2 * single[0] - middle[0]], middle, [2 * single[-1] - middle[-1]]]))
 
 
-def _cells(result: StudyResult, values: np.ndarray, x: Axis, y: Axis, where: Mapping[str, Any] | None) -> Cells:
+def _cells(result: StudyResult, values: np.ndarray, x: _Axis, y: _Axis, where: Mapping[str, Any] | None) -> Cells:
     chosen = ~np.isnan(values)
     for name, value in (where or {}).items():
         chosen &= result[name].values == value
@@ -166,7 +166,7 @@ def _round_ratios(most: float) -> dict[float, str]:
     return {1.0: "1"} | {f: f"x {f:g}" for f in factors} | {1.0 / f: f"/ {f:g}" for f in factors}
 
 
-def _mark_lost(ax: Axes, x: Axis, y: Axis, lost: np.ndarray) -> None:
+def _mark_lost(ax: Axes, x: _Axis, y: _Axis, lost: np.ndarray) -> None:
     """How many runs of a cell did not complete, in percent, where any did not."""
     across, up = (((axis.edges[1:] + axis.edges[:-1]) / 2.0).tolist() for axis in (x, y))
     for column, row in np.argwhere(lost > 0.0):
@@ -175,7 +175,7 @@ def _mark_lost(ax: Axes, x: Axis, y: Axis, lost: np.ndarray) -> None:
         ax.text(across[column], up[row], text, ha="center", va="center", fontsize=6, bbox=box)
 
 
-def _name_axes(ax: Axes, result: StudyResult, x: Axis, y: Axis) -> None:
+def _name_axes(ax: Axes, result: StudyResult, x: _Axis, y: _Axis) -> None:
     ax.set(xlabel=_named(result, x.name), ylabel=_named(result, y.name))
     if x.ticks:
         ax.set_xticks(range(len(x.ticks)), x.ticks)

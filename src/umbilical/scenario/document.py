@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario.base import fingerprint
 from umbilical.scenario.fields import TAGS, place_of
-from umbilical.scenario.problems import problems_of, short, shown
+from umbilical.scenario.problems import problems_of, shortened, shown
 from umbilical.scenario.scenario import Scenario
 
 Data = dict[str, Any]
@@ -26,7 +26,7 @@ _TOO_LARGE = "a whole number of hundreds of digits, which no quantity is"
 _TOO_DEEP = f"nested too deeply: no scenario or study has more than {DEEPEST} levels"
 
 
-def parse(text: str, origin: str = "scenario") -> Scenario:
+def parse_document(text: str, origin: str = "scenario") -> Scenario:
     """Scenario of a complete TOML text, one without ``extends``.
 
     Args:
@@ -38,13 +38,13 @@ def parse(text: str, origin: str = "scenario") -> Scenario:
         ScenarioError: it is, but not of a scenario; every problem is listed.
 
     >>> from umbilical.library import load
-    >>> parse(load("paper").to_toml()) == load("paper")
+    >>> parse_document(load("paper").to_toml()) == load("paper")
     True
     """
-    return validate(read(text, origin), origin)
+    return validate(read_document(text, origin), origin)
 
 
-def read(text: str, origin: str = "scenario") -> Data:
+def read_document(text: str, origin: str = "scenario") -> Data:
     """Plain data of a TOML text.
 
     Raises:
@@ -278,7 +278,7 @@ def _impossible(value: Any, level: int = 0) -> str:
 
 
 def _refused(key: str, value: Any, reason: str) -> Problem:
-    return Problem(short(key), shown(value), "what a scenario or study has", reason, "see `umbilical schema`")
+    return Problem(shortened(key), shown(value), "what a scenario or study has", reason, "see `umbilical schema`")
 
 
 def _thaw(value: Any) -> Any:
@@ -304,7 +304,7 @@ def _nowhere(data: Data, key: str, value: Any) -> Problem:
     found = _find(data, parent)
     if isinstance(found, list):
         bound = f"places 1 to {len(found)} of {parent}" if found else f"no place: {parent} is empty"
-        return Problem(short(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
+        return Problem(shortened(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
     return Problem(
-        short(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
+        shortened(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
     )

@@ -24,11 +24,11 @@ def records(annotation: Any) -> tuple[type[Record], ...]:
     return tuple(record for part in get_args(annotation) for record in records(part))
 
 
-def element(annotation: Any) -> Any:
+def element_type(annotation: Any) -> Any:
     """What a list holds: X of ``tuple[X, ...]``, through ``| None``; None for anything else."""
     if get_origin(annotation) is tuple:
         return get_args(annotation)[0]
-    return next((found for part in get_args(annotation) if (found := element(part)) is not None), None)
+    return next((found for part in get_args(annotation) if (found := element_type(part)) is not None), None)
 
 
 def choices(annotation: Any) -> tuple[Any, ...]:
@@ -62,7 +62,7 @@ def locate(record: type[Record], place: Sequence[int | str]) -> Place:
         kinds = records(annotation)
         if isinstance(step, int):
             steps.append(str(step + 1))
-            annotation = element(annotation)
+            annotation = element_type(annotation)
             field = _entry(annotation, field)
         elif len(kinds) > 1:
             annotation = next(kind for kind in kinds if tag(kind)[1] == step)

@@ -8,7 +8,7 @@ from importlib import resources
 from typing import Any
 
 from umbilical.errors import FileError, Problem, ScenarioError
-from umbilical.scenario.document import Data, extend, read
+from umbilical.scenario.document import Data, extend, read_document
 from umbilical.scenario.problems import nearest, shown
 
 
@@ -61,4 +61,4 @@ class Presets:
             bound, reason = f"one of {', '.join(self.names)}", f"only the {self._whose} can be extended"
             near = nearest(name if isinstance(name, str) else "", self.names)
             raise ScenarioError([Problem("extends", shown(name), bound, reason, near)], origin)
-        return extend(self.extended(read(self.text(name), name), name), changes)
+        return extend(self.extended(read_document(self.text(name), name), name), changes)

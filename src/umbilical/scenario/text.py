@@ -10,7 +10,7 @@ from typing import Any, get_args
 from pydantic.fields import FieldInfo
 
 from umbilical.scenario.base import Record
-from umbilical.scenario.fields import TAGS, choices, element, records, word
+from umbilical.scenario.fields import TAGS, choices, element_type, records, word
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.signals import Term
 
@@ -64,7 +64,7 @@ def _table(record: Record, path: str, marks: Mapping[str, str], siblings: tuple[
         else:
             for number, item in enumerate(value, start=1):
                 yield from ["", *_about(item, marks.get(key)), f"[[{_header(key)}]]  # {number}"]
-                yield from _table(item, f"{key}.{number}.", marks, choices(element(fields[name].annotation)))
+                yield from _table(item, f"{key}.{number}.", marks, choices(element_type(fields[name].annotation)))
 
 
 def _header(key: str) -> str:
@@ -83,7 +83,7 @@ def _leaf(name: str, value: Any, field: FieldInfo, comment: str) -> list[str]:
     if value is None:
         kinds = records(field.annotation)
         return [_with_comment(f"# [{name}] left out" if kinds else f"# {name} left out", comment)]
-    kinds = records(element(field.annotation))
+    kinds = records(element_type(field.annotation))
     if value == () and kinds and kinds != _TERMS:  # an empty list here would forbid adding [[name]] below
         return [_with_comment(f"# [[{name}]] none", comment)]
     if isinstance(value, tuple) and value and isinstance(value[0], Record):

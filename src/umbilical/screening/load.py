@@ -14,7 +14,7 @@ from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.library.recorded import consequences, forget, read_files
 from umbilical.plant.checks.weights import cable_in_water, payload_in_water
 from umbilical.relations.axial import Bar
-from umbilical.scenario.document import freeze, read, try_override
+from umbilical.scenario.document import freeze, read_document, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.scenario.ship import RaoShip
@@ -42,7 +42,7 @@ def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] 
     7.0
     """
     origin = os.fspath(source)
-    changed, lost = try_override(OPERATIONS.extended(read(_text(origin), origin), origin), overrides or {})
+    changed, lost = try_override(OPERATIONS.extended(read_document(_text(origin), origin), origin), overrides or {})
     forget(changed, overrides or {}, Operation)
     unread = read_files(changed, Path() if origin in operation_names() else Path(origin).parent, Operation)
     try:
@@ -50,7 +50,7 @@ def load_operation(source: str | os.PathLike[str], overrides: Mapping[str, Any] 
     except ValidationError as error:
         found = [*lost, *unread, *problems_of(error, Operation)]
         raise ScenarioError(consequences(found, unread), origin) from error
-    if found := [*lost, *unread, *problems_across(operation)]:
+    if found := [*lost, *unread, *_problems_across(operation)]:
         raise ScenarioError(found, origin)
     return operation
 
@@ -74,7 +74,7 @@ def is_operation(source: str | os.PathLike[str]) -> bool:
     if origin in operation_names() or not origin.endswith(".toml"):
         return origin in operation_names()
     try:
-        data = read(_text(origin), origin)
+        data = read_document(_text(origin), origin)
     except (FileError, ScenarioError):
         return False
     return data.get("kind") == "operation" or data.get("extends") in operation_names()
@@ -97,7 +97,7 @@ def bar_of(operation: Operation, length: float) -> Bar:
     return Bar(cable.axial_stiffness, cable.line_density, moving, length, cable.loss_factor, shared)
 
 
-def problems_across(operation: Operation) -> list[Problem]:
+def _problems_across(operation: Operation) -> list[Problem]:
     """What is wrong between fields that are sound one by one."""
     cable, body = operation.cable, operation.payload
     strain = body.wet_weight / cable.axial_stiffness

@@ -15,7 +15,7 @@ import numpy as np
 
 from umbilical.result import ResultFaces
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import respond, unknowns
+from umbilical.screening.response import respond, unknown_parts
 from umbilical.sea.spectrum import Spectrum
 
 BAND = (0.8, 1.25)
@@ -82,7 +82,7 @@ class Lowering(ResultFaces):
 
     def notices(self) -> tuple[str, ...]:
         """What the risk does not know."""
-        return tuple(unknowns(self.operation))
+        return tuple(unknown_parts(self.operation))
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data."""

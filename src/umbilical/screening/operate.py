@@ -19,7 +19,15 @@ from umbilical.result import ResultFaces
 from umbilical.screening.criteria import USUAL, Criterion, read_criteria
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread, unknowns
+from umbilical.screening.response import (
+    FREQUENCIES,
+    Spread,
+    check_vessel,
+    largest_rms,
+    sheave_energy,
+    spread,
+    unknown_parts,
+)
 from umbilical.sea.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -95,7 +103,7 @@ class Operability(ResultFaces):
 
     def notices(self) -> tuple[str, ...]:
         """What the limits do not know."""
-        said = unknowns(self.operation)
+        said = unknown_parts(self.operation)
         if count := int(self.undamped.sum()):
             said.append(
                 f"{count} of {self.undamped.size} limits hang on the cable's own damping, which is 0 here: a loss "

@@ -10,7 +10,7 @@ from umbilical.scenario.base import Record, fingerprint, measured
 from umbilical.scenario.ship import Ship
 
 
-class HangingCable(Record):
+class OperationCable(Record):
     """The umbilical in line with its tension."""
 
     line_density: float = measured(
@@ -65,7 +65,7 @@ class SeaShape(Record):
     )
 
 
-class Water(Record):
+class OperationWater(Record):
     """Gravity; the body's drag and weight are given as they are in this water."""
 
     gravity: float = measured("m/s2", "gravitational acceleration", 9.81, gt=0.0, le=100.0, reason="weight", fix="9.81")
@@ -83,12 +83,12 @@ class Operation(Record):
     kind: Literal["operation"] = Field(description="what this file is")
     name: str = Field(min_length=1, max_length=60, description="short name")
     description: str = Field(default="", description="what is lowered from what")
-    cable: HangingCable
+    cable: OperationCable
     payload: HangingBody
     vessel: Ship
     sea: SeaShape = SeaShape()
     compensation: HeaveCompensation | None = None
-    environment: Water = Water()
+    environment: OperationWater = OperationWater()
     assumed: dict[str, str] = Field(default_factory=dict, description="what no source gives, each with the reason")
 
     @property

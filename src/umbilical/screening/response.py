@@ -18,7 +18,7 @@ from umbilical.scenario.ship import RaoShip
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import HeaveCompensation, Operation
 from umbilical.sea.rao import RaoVessel, sheave_of, vessel_of
-from umbilical.sea.rao_checks import sea_problems, told
+from umbilical.sea.rao_checks import assumed_of_table, sea_problems
 from umbilical.sea.spectrum import Spectrum
 from umbilical.sea.vessel import motion_of_point
 
@@ -58,7 +58,7 @@ class Response(NamedTuple):
 
     def slack_probability(self, duration: float) -> float:
         """Probability that the cable goes slack at the body within a time, s."""
-        return float(exceedance(self.end_mean, self.end, duration))
+        return float(level_exceedance(self.end_mean, self.end, duration))
 
 
 def respond(
@@ -101,7 +101,7 @@ def sheave_energy(operation: Operation, density: np.ndarray, heading: float) -> 
     """Spectral density of the sheave's heave after compensation, at :data:`FREQUENCIES`, m2 s/rad."""
     vessel = vessel_of(operation.vessel, operation.environment.gravity)
     heave = motion_of_point(vessel.motions(FREQUENCIES, heading), sheave_of(operation.vessel))[2]
-    return density * abs(heave * residual(operation.compensation, FREQUENCIES)) ** 2
+    return density * abs(heave * residual_heave(operation.compensation, FREQUENCIES)) ** 2
 
 
 def check_vessel(operation: Operation, seas: Iterable[Spectrum], headings: Iterable[float]) -> None:
@@ -118,9 +118,9 @@ def check_vessel(operation: Operation, seas: Iterable[Spectrum], headings: Itera
             raise ScenarioError([*found.values()], operation.name)
 
 
-def unknowns(operation: Operation) -> list[str]:
+def unknown_parts(operation: Operation) -> list[str]:
     """What screening does not know of an operation, in words."""
-    vessel = [*told(operation.vessel)] if isinstance(operation.vessel, RaoShip) else []
+    vessel = [*assumed_of_table(operation.vessel)] if isinstance(operation.vessel, RaoShip) else []
     return [
         "linearised: keep 10 % below a limit until a simulation confirms it",
         "one wave direction at a time, no current; the cable stays straight and its length is held",
@@ -128,11 +128,11 @@ def unknowns(operation: Operation) -> list[str]:
     ]
 
 
-def residual(compensation: HeaveCompensation | None, omega: np.ndarray) -> np.ndarray:
+def residual_heave(compensation: HeaveCompensation | None, omega: np.ndarray) -> np.ndarray:
     """Share of the sheave's heave that is left, complex.
 
     >>> drive = HeaveCompensation(lag=0.05, bandwidth=6.0)
-    >>> float(np.round(abs(residual(drive, np.array(2 * np.pi / 8.0))), 4))
+    >>> float(np.round(abs(residual_heave(drive, np.array(2 * np.pi / 8.0))), 4))
     0.2232
     """
     if compensation is None:
@@ -149,7 +149,7 @@ def spread(gain: np.ndarray, energy: np.ndarray) -> Spread:
     return Spread(np.sqrt(zeroth), 2.0 * np.pi * np.sqrt(zeroth / np.maximum(second, np.finfo(float).tiny)))
 
 
-def exceedance(level: np.ndarray | float, process: Spread, duration: float) -> np.ndarray:
+def level_exceedance(level: np.ndarray | float, process: Spread, duration: float) -> np.ndarray:
     """Probability that a process passes a level above its mean within a time, s."""
     scaled = np.maximum(level, 0.0) / np.maximum(process.rms, np.finfo(float).tiny)
     return -np.expm1(-duration / process.period * np.exp(-(scaled**2) / 2.0))

@@ -29,8 +29,8 @@ def table_problems(ship: RaoShip, key: str = "vessel", gravity: float = 9.81) ->
     """Everything that is wrong with a table by itself."""
     counts = {name: len(getattr(ship, name)) for name in ("heading", "frequency", *_lists(ship))}
     if len(set(counts.values())) > 1:
-        told = ", ".join(f"{name} {count}" for name, count in counts.items())
-        yield Problem(key, told, "equally many rows", "a row has one of each", "complete the columns")
+        assumed_of_table = ", ".join(f"{name} {count}" for name, count in counts.items())
+        yield Problem(key, assumed_of_table, "equally many rows", "a row has one of each", "complete the columns")
         return
     if min(ship.frequency) <= 0.0 or not np.isfinite(ship.frequency).all():
         yield Problem(
@@ -56,7 +56,7 @@ def table_problems(ship: RaoShip, key: str = "vessel", gravity: float = 9.81) ->
     yield from _long_waves(vessel, key, gravity)
 
 
-def told(ship: RaoShip) -> Iterator[str]:
+def assumed_of_table(ship: RaoShip) -> Iterator[str]:
     """What a table leaves open, in words."""
     missing = [name for name in MOTIONS if not getattr(ship, name)]
     if missing:

@@ -94,8 +94,8 @@ def audit(scenario: Scenario, *, progress: Callable[[float], None] | None = None
     perfect, actual = ideal_loop(scenario), sampled_finely(scenario)
     ideal_run = simulate(perfect, progress=lambda share: tell(0.5 * share))
     real_run = simulate(actual, progress=lambda share: tell(0.5 + 0.5 * share))
-    time, value = lyapunov(ideal_run, certificate)
-    real_time, real = lyapunov(real_run, certificate)
+    time, value = lyapunov_of_run(ideal_run, certificate)
+    real_time, real = lyapunov_of_run(real_run, certificate)
     return Audit(
         certificate=certificate,
         ideal_run=ideal_run,
@@ -133,7 +133,7 @@ def sampled_finely(scenario: Scenario) -> Scenario:
     return scenario.replace({"output.interval": max(1, round(INTERVAL / period)) * period})
 
 
-def lyapunov(run: Run, certificate: Certificate) -> tuple[np.ndarray, np.ndarray]:
+def lyapunov_of_run(run: Run, certificate: Certificate) -> tuple[np.ndarray, np.ndarray]:
     """Instants, s, and V with gam = 1, J, of a run, with the certificate's weights."""
     read, weights = _read(run), certificate.weights
     cable = cable_function(run.scenario, read, weights)

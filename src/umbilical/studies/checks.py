@@ -14,8 +14,8 @@ from umbilical.quantities import METRICS
 from umbilical.scenario.document import look_up, validate
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.problems import nearest
-from umbilical.studies.designs import size
-from umbilical.studies.distributions import Grid, LogUniform, Uniform, count, draw, is_number
+from umbilical.studies.designs import design_size
+from umbilical.studies.distributions import GridPoints, LogUniform, Uniform, count, draw_value, is_number
 from umbilical.studies.members import arm_data, given_by, needed_of_a_fault, variables
 from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Factor, Study
@@ -50,7 +50,7 @@ def _bounds(study: Study) -> Iterator[Problem]:
     """Lower bounds are below upper ones, and steps between them."""
     for variable in variables(study):
         found, unit = variable.distribution, words_at(study.scenario, variable.name)[0]
-        if isinstance(found, Uniform | LogUniform | Grid) and found.low >= found.high:
+        if isinstance(found, Uniform | LogUniform | GridPoints) and found.low >= found.high:
             yield _order(variable.name, found.low, found.high, unit)
         elif isinstance(found, Uniform) and found.step and found.step > found.high - found.low:
             value, bound = (
@@ -77,7 +77,7 @@ def _relative(study: Study) -> Iterator[Problem]:
             fix = "drop `relative`, or name another key"
             wrong = Problem(factor.key, "relative = true", bound, "a factor multiplies a number", fix)
             # Of a key that leads nowhere, the scenario itself says what was meant.
-            yield from _new_ones(study, {}, {factor.key: draw(factor.distribution, _MIDDLE)}) or (wrong,)
+            yield from _new_ones(study, {}, {factor.key: draw_value(factor.distribution, _MIDDLE)}) or (wrong,)
 
 
 def _multiplies(study: Study, factor: Factor) -> bool:
@@ -97,7 +97,7 @@ def _grid(study: Study) -> Iterator[Problem]:
             kind = variable.distribution.kind
             fix = "a grid or choice distribution, or another design"
             yield Problem(variable.name, kind, "grid or choice", "a grid combines single values", fix)
-    combinations = size(study.design, study.members, [count(v.distribution) for v in variables(study)])
+    combinations = design_size(study.design, study.members, [count(v.distribution) for v in variables(study)])
     if combinations > _MOST:
         yield Problem(
             "design",
@@ -195,7 +195,7 @@ def _draws_in_the_middle(study: Study) -> Iterator[Problem]:
 
 
 def _drawn_in_the_middle(study: Study, factor: Factor) -> Any:
-    return given_by(arm_data(study, {}), factor, draw(factor.distribution, _MIDDLE))
+    return given_by(arm_data(study, {}), factor, draw_value(factor.distribution, _MIDDLE))
 
 
 def _gains_in_the_middle(study: Study) -> Iterator[Problem]:

@@ -34,13 +34,13 @@ def certificate(scenario: Scenario) -> float:
     return -found.rate if found.holds else max(-found.rate, 1e-9)
 
 
-def margins(scenario: Scenario) -> float:
+def margins_kept(scenario: Scenario) -> float:
     """Broken unless the linearised sampled loop is stable at the shortest, middle and longest length of the run, and
     survives thrusters of half and of twice their strength, and :data:`PHASE` of lag: the unstable poles, or the largest
     share of a margin that is missing.
 
     >>> from umbilical.library import load
-    >>> 0.0 < margins(load("paper")) < 1.0  # stable, but not with twice the thrust
+    >>> 0.0 < margins_kept(load("paper")) < 1.0  # stable, but not with twice the thrust
     True
     """
     from umbilical.stability.judgement import judge, usual_lengths
@@ -57,6 +57,6 @@ def margins(scenario: Scenario) -> float:
     ) - 1.0  # fmt: skip
 
 
-CONSTRAINTS: dict[str, Constraint] = {"certificate": certificate, "margins": margins}
+CONSTRAINTS: dict[str, Constraint] = {"certificate": certificate, "margins": margins_kept}
 """Every condition by the name a study gives it in ``tuning.constraints``. That the scenario is admitted and that every
 member completes is always one."""

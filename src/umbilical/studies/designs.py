@@ -16,7 +16,7 @@ SALIB = ("saltelli", "morris")
 _LEVELS = 4
 
 
-def size(method: Method, members: int, counts: Sequence[int | None]) -> int:
+def design_size(method: Method, members: int, counts: Sequence[int | None]) -> int:
     """How many members a design has: as many as asked for, or as its rule makes of that.
 
     A grid has the product of its counts; Saltelli's and Morris's designs come in blocks, rounded up.
@@ -48,7 +48,7 @@ def points(method: Method, members: int, counts: Sequence[int | None], seed: int
     >>> points("grid", 0, [2, 2], 0).tolist()
     [[0.25, 0.25], [0.25, 0.75], [0.75, 0.25], [0.75, 0.75]]
     """
-    found, dimensions = size(method, members, counts), len(counts)
+    found, dimensions = design_size(method, members, counts), len(counts)
     if not dimensions:
         return np.zeros((found, 0))
     generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))

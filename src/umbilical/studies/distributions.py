@@ -51,7 +51,7 @@ class Choice(Record):
     values: tuple[Entry, ...] = Field(min_length=1, max_length=10_000, description="numbers, texts or truth values")
 
 
-class Grid(Record):
+class GridPoints(Record):
     """Evenly spaced values, both bounds among them."""
 
     kind: Literal["grid"]
@@ -60,13 +60,14 @@ class Grid(Record):
     count: int = Field(ge=2, le=10_000, description="how many values")
 
 
-Distribution = Annotated[Uniform | LogUniform | Normal | Choice | Grid, Field(discriminator="kind")]
+Distribution = Annotated[Uniform | LogUniform | Normal | Choice | GridPoints, Field(discriminator="kind")]
 
 
-def draw(distribution: Distribution, share: float) -> Drawn:
+def draw_value(distribution: Distribution, share: float) -> Drawn:
     """Value below which the given share, 0 to 1, of all draws lies.
 
-    >>> draw(Uniform(kind="uniform", low=2.0, high=4.0), 0.5), draw(Choice(kind="choice", values=("a", "b")), 0.5)
+    >>> width, side = Uniform(kind="uniform", low=2.0, high=4.0), Choice(kind="choice", values=("a", "b"))
+    >>> draw_value(width, 0.5), draw_value(side, 0.5)
     (3.0, 'b')
     """
     return _quantile(distribution, share)
@@ -115,7 +116,7 @@ def _(distribution: Choice, share: float) -> Drawn:
 
 
 @_quantile.register
-def _(distribution: Grid, share: float) -> Drawn:
+def _(distribution: GridPoints, share: float) -> Drawn:
     place = _place(share, distribution.count) / (distribution.count - 1)
     return distribution.low + place * (distribution.high - distribution.low)
 

@@ -28,7 +28,7 @@ def to_line(entry: Any) -> bytes:
     return b"%08x %s\n" % (crc32(text), text)
 
 
-def is_whole(line: bytes) -> bool:
+def is_whole_line(line: bytes) -> bool:
     """Whether nothing of a line is missing or changed."""
     return line.endswith(b"\n") and line[8:9] == b" " and line[:8] == b"%08x" % crc32(line[9:-1])
 
@@ -42,7 +42,7 @@ def lines(path: Path) -> Iterator[bytes]:
     if path.exists():
         with _opened(path) as file:
             for number, line in enumerate(file, start=1):
-                if not is_whole(line):
+                if not is_whole_line(line):
                     _refuse_damage(path, number, file)
                     return
                 yield line
@@ -62,7 +62,7 @@ def entries(path: Path) -> Iterator[Any]:
 
 
 def _refuse_damage(path: Path, number: int, rest: Iterable[bytes]) -> None:
-    if any(map(is_whole, rest)):
+    if any(map(is_whole_line, rest)):
         raise FileError(
             f"{path}: line {number} is damaged and lines after it are not; remove that line and go on with --resume, "
             "or begin anew with --force"

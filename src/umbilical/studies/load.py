@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from umbilical import files
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.library import load
-from umbilical.scenario.document import Data, freeze, read, try_override
+from umbilical.scenario.document import Data, freeze, read_document, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest, problems_of
 from umbilical.studies.checks import problems_across
@@ -37,7 +37,7 @@ def load_study(source: str | os.PathLike[str], overrides: Mapping[str, Any] | No
     7
     """
     origin = os.fspath(source)
-    data = read(_text(origin), origin)
+    data = read_document(_text(origin), origin)
     data["scenario"] = _scenario_data(data.get("scenario"), Path(origin).parent, origin)
     return override_study(data, overrides or {}, origin)
 
@@ -121,7 +121,7 @@ def is_study(source: str) -> bool:
             from umbilical.studies.results import is_study_file
 
             return is_study_file(source)
-        return Path(source).suffix == ".toml" and "scenario" in read(_text(source), source)
+        return Path(source).suffix == ".toml" and "scenario" in read_document(_text(source), source)
     except FileError:
         return False
 

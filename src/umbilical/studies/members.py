@@ -11,8 +11,8 @@ import numpy as np
 
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import look_up, override, validate
-from umbilical.studies.designs import child_seed, points, size
-from umbilical.studies.distributions import Choice, Distribution, Drawn, count, draw
+from umbilical.studies.designs import child_seed, design_size, points
+from umbilical.studies.distributions import Choice, Distribution, Drawn, count, draw_value
 from umbilical.studies.study import Campaign, Factor, Study
 
 _NUMBERS_OF_A_FAULT = ("start", "effectiveness", "value", "over", "cycle", "duty")
@@ -26,7 +26,7 @@ _BELONGS_TO = {
 """What each kind of fault is made of, beside its start."""
 
 
-class Variable(NamedTuple):
+class DrawnVariable(NamedTuple):
     """Something drawn: its column's name and its distribution."""
 
     name: str
@@ -40,18 +40,18 @@ class Member(NamedTuple):
     point: tuple[float, ...]
 
 
-def variables(study: Study) -> tuple[Variable, ...]:
+def variables(study: Study) -> tuple[DrawnVariable, ...]:
     """Everything that is drawn, in the order of the design's columns."""
-    factors = [Variable(factor.key, factor.distribution) for factor in study.factors]
+    factors = [DrawnVariable(factor.key, factor.distribution) for factor in study.factors]
     return (*factors, *(variable for campaign in study.campaigns for variable in _of_campaign(campaign)))
 
 
-def _of_campaign(campaign: Campaign) -> Iterator[Variable]:
-    yield Variable(f"{campaign.name}.kind", Choice(kind="choice", values=campaign.kinds))
-    yield Variable(f"{campaign.name}.motor", Choice(kind="choice", values=campaign.motors))
+def _of_campaign(campaign: Campaign) -> Iterator[DrawnVariable]:
+    yield DrawnVariable(f"{campaign.name}.kind", Choice(kind="choice", values=campaign.kinds))
+    yield DrawnVariable(f"{campaign.name}.motor", Choice(kind="choice", values=campaign.motors))
     for name in _NUMBERS_OF_A_FAULT:
         if (distribution := getattr(campaign, name)) is not None:
-            yield Variable(f"{campaign.name}.{name}", distribution)
+            yield DrawnVariable(f"{campaign.name}.{name}", distribution)
 
 
 def needed_of_a_fault(kind: str) -> tuple[str, ...]:
@@ -81,7 +81,7 @@ class Draws:
     study: Study
 
     @cached_property
-    def variables(self) -> tuple[Variable, ...]:
+    def variables(self) -> tuple[DrawnVariable, ...]:
         """What is drawn."""
         return variables(self.study)
 
@@ -92,7 +92,7 @@ class Draws:
         return points(study.design, study.members, [count(v.distribution) for v in self.variables], study.seed)
 
     def __len__(self) -> int:
-        return size(self.study.design, self.study.members, [count(v.distribution) for v in self.variables])
+        return design_size(self.study.design, self.study.members, [count(v.distribution) for v in self.variables])
 
     def member(self, number: int) -> Member:
         """Member of a number, from 1."""
@@ -101,11 +101,13 @@ class Draws:
     def column(self, variable: int) -> list[Drawn]:
         """What was drawn of one variable, from 0, for every member."""
         distribution = self.variables[variable].distribution
-        return [draw(distribution, share) for share in self.points[:, variable].tolist()]
+        return [draw_value(distribution, share) for share in self.points[:, variable].tolist()]
 
     def values(self, member: Member) -> dict[str, Drawn]:
         """What was drawn for a member, by column; relative factors as they are drawn."""
-        return {v.name: draw(v.distribution, share) for v, share in zip(self.variables, member.point, strict=True)}
+        return {
+            v.name: draw_value(v.distribution, share) for v, share in zip(self.variables, member.point, strict=True)
+        }
 
     @cached_property
     def _arms(self) -> tuple[Mapping[str, Any], ...]:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from umbilical import __version__, files
-from umbilical.contents import CONTENTS, check, contents_of, json_of, kind_of, refuse, text, wrong_array
+from umbilical.contents import CONTENTS, check_contents, contents_of, json_of, kind_of, refuse, text_rule, wrong_array
 from umbilical.errors import FileError
 from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import METRICS
@@ -111,7 +111,7 @@ class StudyResult(ResultFaces):
         return files.write(path, to_netcdf(self.data), force=force)
 
 
-def assemble(study: Study, rows: Iterable[Row]) -> StudyResult:
+def assemble_study(study: Study, rows: Iterable[Row]) -> StudyResult:
     """Put rows, in any order, under their names."""
     import xarray
 
@@ -216,12 +216,12 @@ def open_study(path: str | os.PathLike[str]) -> StudyResult:
     True
     """
     from umbilical.errors import ScenarioError
-    from umbilical.scenario.document import read
+    from umbilical.scenario.document import read_document
     from umbilical.studies.load import admit_study
 
     data, origin = _open(path), f"{path}: the study inside"
     try:
-        study = admit_study(read(data.attrs["study"], origin), origin)
+        study = admit_study(read_document(data.attrs["study"], origin), origin)
     except ScenarioError as error:
         raise FileError(f"{error}\n(this version of Umbilical refuses it; xarray still reads the numbers)") from error
     refuse(filter(None, _wrong_arrays(data, study)), str(path))
@@ -239,8 +239,8 @@ def is_study_file(path: str | os.PathLike[str]) -> bool:
 
 
 _RULES = {
-    **dict.fromkeys(("title", "convention", "study", "study_hash"), text),
-    **dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text),
+    **dict.fromkeys(("title", "convention", "study", "study_hash"), text_rule),
+    **dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text_rule),
     "limits": json_of(dict, int, float),
 }
 
@@ -249,7 +249,7 @@ def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
     data = from_netcdf(files.read(path), str(path))
     if (kind := kind_of(data)) != KIND:
         raise FileError(f"{path}: this is the result of a {kind}, not of a study")
-    check(data, _RULES, "", str(path))
+    check_contents(data, _RULES, "", str(path))
     return data
 
 

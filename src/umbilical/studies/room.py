@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from umbilical import machine
 from umbilical.errors import Problem, ScenarioError
-from umbilical.studies.designs import size
+from umbilical.studies.designs import design_size
 from umbilical.studies.distributions import count
 from umbilical.studies.members import variables
 from umbilical.studies.rows import NAMES
@@ -19,7 +19,7 @@ _CELL, _DRAW, _MEMBER = 100, 100, 300
 
 def members_of(study: Study) -> int:
     """How many members a study has, a grid's product included."""
-    return size(study.design, study.members, [count(v.distribution) for v in variables(study)])
+    return design_size(study.design, study.members, [count(v.distribution) for v in variables(study)])
 
 
 def memory_needed(study: Study) -> int:
@@ -28,7 +28,7 @@ def memory_needed(study: Study) -> int:
     return members_of(study) * (cells + _DRAW * len(variables(study)) + _MEMBER)
 
 
-def check_memory(study: Study) -> None:
+def check_study_memory(study: Study) -> None:
     """Refuse a study whose result this machine could not hold.
 
     Raises:

@@ -13,7 +13,7 @@ from umbilical.errors import MissingPartnerError
 Point = tuple[float, ...]
 
 
-class Verdict(NamedTuple):
+class TrialVerdict(NamedTuple):
     """What came of a trial: its objectives, to be small, and by how much it breaks each condition (0 and less: not)."""
 
     values: tuple[float, ...]
@@ -25,7 +25,7 @@ class Verdict(NamedTuple):
         return sum(max(violation, 0.0) for violation in self.violations)
 
 
-Judge = Callable[[Point], Verdict]
+Judge = Callable[[Point], TrialVerdict]
 _WORSE = 1e9
 """Stands for what is worse than any number, which optimisers cannot take."""
 
@@ -68,10 +68,11 @@ def _sampler(optuna: Any, seed: int) -> Any:
         )
 
 
-def front(verdicts: Sequence[Verdict]) -> list[int]:
+def front(verdicts: Sequence[TrialVerdict]) -> list[int]:
     """Places of those that keep every condition and that no other beats in every objective, by the first objective.
 
-    >>> front([Verdict((1.0, 3.0), ()), Verdict((2.0, 2.0), ()), Verdict((3.0, 3.0), ()), Verdict((0.0, 0.0), (1.0,))])
+    >>> values = [((1.0, 3.0), ()), ((2.0, 2.0), ()), ((3.0, 3.0), ()), ((0.0, 0.0), (1.0,))]
+    >>> front([TrialVerdict(*both) for both in values])
     [0, 1]
     """
     sound = [k for k, v in enumerate(verdicts) if v.broken == 0.0 and all(value < inf for value in v.values)]
@@ -82,6 +83,6 @@ def front(verdicts: Sequence[Verdict]) -> list[int]:
     return best
 
 
-def _beats(one: Verdict, other: Verdict) -> bool:
+def _beats(one: TrialVerdict, other: TrialVerdict) -> bool:
     """Whether one is nowhere worse; of equals the first stays."""
     return all(a <= b for a, b in zip(one.values, other.values, strict=True))

@@ -103,7 +103,7 @@ def snap(
     Raises:
         ScenarioError: the scenario is refused, is no rope, or its seeds change nothing.
     """
-    check(scenario, seeds)
+    check_seeds(scenario, seeds)
     sea = scenario.environment.sea
     chosen = (sea.seed if sea else 0) + np.arange(seeds)
     kept = {} if scenario.output.interval <= _STORED else {"output.interval": _near(_STORED, scenario.control.period)}
@@ -123,7 +123,7 @@ def _near(interval: float, period: float) -> float:
     return period * max(1.0, interval // period)
 
 
-def check(scenario: Scenario, seeds: int) -> None:
+def check_seeds(scenario: Scenario, seeds: int) -> None:
     """Refuse what no seeds say anything of.
 
     Raises:

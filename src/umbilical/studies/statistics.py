@@ -76,10 +76,11 @@ def reasons(result: StudyResult, arm: str) -> list[Reason]:
     return [Reason(count, kind[0], first[kind]) for kind, count in counts.most_common()]
 
 
-def told(found: Estimate, digits: int = 4, unit: str = "") -> str:
+def interval_text(found: Estimate, digits: int = 4, unit: str = "") -> str:
     """An estimate in words; without its interval where it has none, a dash where it is nothing.
 
-    >>> told(Estimate(0.5, 0.25, float("inf"))), told(Estimate(50.0, float("nan"), float("nan")), unit=" %")
+    >>> nan = float("nan")
+    >>> interval_text(Estimate(0.5, 0.25, float("inf"))), interval_text(Estimate(50.0, nan, nan), unit=" %")
     ('0.5 (0.25 to open)', '50 %')
     """
     if np.isnan(found.value):
@@ -90,9 +91,9 @@ def told(found: Estimate, digits: int = 4, unit: str = "") -> str:
     return f"{found.value:.{digits}g}{unit}{interval}"
 
 
-def percent(found: Estimate) -> str:
+def percentage(found: Estimate) -> str:
     """A share in percent, with its interval."""
-    return told(Estimate(*(100.0 * value for value in found)), 3, " %")
+    return interval_text(Estimate(*(100.0 * value for value in found)), 3, " %")
 
 
 def _as_sure_as_it_is(result: StudyResult, found: Estimate) -> Estimate:

@@ -70,7 +70,7 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
             journal.close()
 
 
-def fingerprint(study: Study, task: str) -> dict[str, Any]:
+def study_fingerprint(study: Study, task: str) -> dict[str, Any]:
     """What must be equal for two parts of a study to fit together bit for bit."""
     from umbilical.compile import cache_folder
 
@@ -86,7 +86,7 @@ def fingerprint(study: Study, task: str) -> dict[str, Any]:
 
 def _settle(folder: Path, study: Study, task: str, resume: bool) -> None:
     """Write the manifest into a new folder, or compare with the one that is there."""
-    mine, found = fingerprint(study, task), _manifest(folder)
+    mine, found = study_fingerprint(study, task), _manifest(folder)
     if found is None:
         content = {**mine, "name": study.name, "study": study.to_toml()}
         files.write(folder / MANIFEST, (json.dumps(content, indent=1) + "\n").encode())

@@ -16,8 +16,8 @@ from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs, processes, threads
 from umbilical.studies.grids import on_one_grid
 from umbilical.studies.members import Draws, Member
-from umbilical.studies.results import StudyResult, assemble
-from umbilical.studies.room import check_memory
+from umbilical.studies.results import StudyResult, assemble_study
+from umbilical.studies.room import check_study_memory
 from umbilical.studies.rows import Row, from_entry
 from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
@@ -69,7 +69,7 @@ def sweep(
     """
     expect(study, "Study", "load_study")
     study = on_one_grid(study)
-    check_memory(study)
+    check_study_memory(study)
     check_controllers(study, trust=trust)
     draws = Draws(study)
     engine = engine or default_engine(study, jobs or default_jobs())
@@ -81,7 +81,7 @@ def sweep(
 
 def in_memory(draws: Draws, engine: Engine, progress: Progress = lambda share: None) -> StudyResult:
     """The result of a study whose controllers have been checked."""
-    return assemble(draws.study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
+    return assemble_study(draws.study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
 
 
 def default_engine(study: Study, jobs: int) -> Engine:
@@ -97,7 +97,7 @@ def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, report
     for row in _counted(found, len(draws), len(done), progress):
         _store_runs(store, row, range(len(study.arms)))
         store.journal.append(row[:2])
-    result = assemble(study, _stored_rows(store, draws))
+    result = assemble_study(study, _stored_rows(store, draws))
     store.save(to_netcdf(result.data), "study.nc")
     if study.trajectories.keep == "worst":
         _keep_the_worst(store, draws, engine, result)

@@ -26,8 +26,8 @@ from umbilical.studies.grids import on_one_grid
 from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, arm_data
 from umbilical.studies.results import StudyResult
-from umbilical.studies.room import check_memory
-from umbilical.studies.search import Point, Verdict, front, search
+from umbilical.studies.room import check_study_memory
+from umbilical.studies.search import Point, TrialVerdict, front, search
 from umbilical.studies.store import Store, open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
 from umbilical.studies.sweep import default_engine, in_memory
@@ -38,11 +38,11 @@ _NO_ANSWER = 1e6
 
 
 @dataclass(frozen=True)
-class Trial:
+class TriedGains:
     """One set of gains, by dotted key, and what came of it."""
 
     gains: Mapping[str, float]
-    verdict: Verdict
+    verdict: TrialVerdict
 
 
 @dataclass(frozen=True)
@@ -61,10 +61,10 @@ class Tuned(ResultFaces):
 
     study: Study
     conditions: tuple[str, ...]
-    trials: tuple[Trial, ...]
+    trials: tuple[TriedGains, ...]
 
     @property
-    def front(self) -> tuple[Trial, ...]:
+    def front(self) -> tuple[TriedGains, ...]:
         """Trials that keep every condition and that no other beats in every objective."""
         return tuple(self.trials[k] for k in front([trial.verdict for trial in self.trials]))
 
@@ -93,7 +93,7 @@ class Tuned(ResultFaces):
             "trials": [_plain(trial) for trial in self.trials],
         }
 
-    def patch(self, trial: Trial) -> str:
+    def patch(self, trial: TriedGains) -> str:
         """TOML of a scenario with these gains: what the tuned arm and the gains change of the study's scenario."""
         return to_patch(self.study, trial.gains)
 
@@ -138,7 +138,7 @@ def tune(
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
     study = on_one_grid(study)
-    check_memory(study)
+    check_study_memory(study)
     check_controllers(study, trust=trust)
     engine = engine or default_engine(study, default_jobs())
     task = "tune optuna"
@@ -163,27 +163,27 @@ class _Trials:
         store: Store | None,
         progress: Progress,
     ) -> None:
-        self.all: list[Trial] = []
+        self.all: list[TriedGains] = []
         self._study, self._conditions, self._engine = study, conditions, engine
         self._store, self._progress = store, progress
         old = store.entries() if store else ()
         lengths = (len(tuning_of(study).gains), len(tuning_of(study).objectives), len(conditions) + 2)
-        self._known: dict[Point, Verdict] = dict(_from_entry(entry, lengths) for entry in old)
+        self._known: dict[Point, TrialVerdict] = dict(_from_entry(entry, lengths) for entry in old)
 
-    def judge(self, point: Point) -> Verdict:
+    def judge(self, point: Point) -> TrialVerdict:
         """What comes of a point of the unit cube."""
         gains = {g.key: g.at(share) for g, share in zip(tuning_of(self._study).gains, point, strict=True)}
         if (verdict := self._known.get(point)) is None:
-            verdict = judge(self._study, gains, self._conditions, self._engine)
+            verdict = judge_gains(self._study, gains, self._conditions, self._engine)
             self._known[point] = verdict
             if self._store:
                 self._store.journal.append([point, *verdict])
-        self.all.append(Trial(gains, verdict))
+        self.all.append(TriedGains(gains, verdict))
         self._progress(len(self.all) / tuning_of(self._study).trials)
         return verdict
 
 
-def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, Verdict]:
+def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, TrialVerdict]:
     """Point and verdict of a line of the journal.
 
     Raises:
@@ -195,10 +195,12 @@ def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, Verdi
         point, values, violations = (), (), ()
     if (len(point), len(values), len(violations)) != lengths:
         raise FileError(f"the journal holds a line that is no trial of this study; {BEGIN_ANEW}")
-    return point, Verdict(values, violations)
+    return point, TrialVerdict(values, violations)
 
 
-def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Engine) -> Verdict:
+def judge_gains(
+    study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Engine
+) -> TrialVerdict:
     """Conditions first, since they are cheap; the members are run only when the scenario keeps them all."""
     tuning = tuning_of(study)
     nothing = tuple(float("inf") for _ in tuning.objectives)
@@ -207,14 +209,14 @@ def judge(study: Study, gains: Mapping[str, float], conditions: Mapping[str, Con
         scenario = validate(arm_data(study, arm.changes), study.name)
         admit(scenario)
     except ScenarioError as error:
-        return Verdict(nothing, (float(len(error.problems)), *(0.0 for _ in conditions), 0.0))
+        return TrialVerdict(nothing, (float(len(error.problems)), *(0.0 for _ in conditions), 0.0))
     found = (float(condition(scenario)) for condition in conditions.values())
     violations = tuple(_NO_ANSWER if isnan(violation) else violation for violation in found)
     if any(violation > 0.0 for violation in violations):
-        return Verdict(nothing, (0.0, *violations, 0.0))
+        return TrialVerdict(nothing, (0.0, *violations, 0.0))
     result = in_memory(Draws(study.model_copy(update={"arms": (arm,)})), engine)
     lost = float(np.mean(result["status"].values != 0))
-    return Verdict(tuple(statistic(result, o) for o in tuning.objectives), (0.0, *violations, lost))
+    return TrialVerdict(tuple(statistic(result, o) for o in tuning.objectives), (0.0, *violations, lost))
 
 
 def statistic(result: StudyResult, objective: Objective) -> float:
@@ -288,7 +290,7 @@ def _keep(store: Store, found: Tuned) -> None:
         store.save(found.patch(trial).encode(), name)
 
 
-def _plain(trial: Trial) -> dict[str, Any]:
+def _plain(trial: TriedGains) -> dict[str, Any]:
     finite = [value if np.isfinite(value) else None for value in trial.verdict.values]
     return {"gains": dict(trial.gains), "values": finite, "violations": list(trial.verdict.violations)}
 

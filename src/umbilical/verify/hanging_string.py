@@ -20,7 +20,7 @@ BESSEL = "J0(z1) Y2(z0) - Y0(z1) J2(z0) = 0, roots to 30 digits"
 SOURCE = "Frequencies of a hanging chain supporting an end mass"
 
 
-def hanging(string: HangingString, **overrides: object) -> Scenario:
+def hung(string: HangingString, **overrides: object) -> Scenario:
     """The string as a scenario, undamped."""
     return open_loop(
         winch__length=string.length, payload__mass=string.mass, cable__line_density=string.line_density,
@@ -31,7 +31,7 @@ def hanging(string: HangingString, **overrides: object) -> Scenario:
 
 def _compared(string: HangingString, **overrides: object) -> Iterator[Check]:
     """The first six frequencies and shapes, and that nothing decays or grows by itself."""
-    scenario = hanging(string, **overrides)
+    scenario = hung(string, **overrides)
     found, shapes = engine.modes(scenario, 6)
     exact = reference.frequencies(string, 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
@@ -44,7 +44,7 @@ def _compared(string: HangingString, **overrides: object) -> Iterator[Check]:
 
 def _steady_tension() -> Iterator[Check]:
     """The limit rho -> 0 in the tension only."""
-    found = engine.poles(hanging(HangingString()).replace(STEADY_TENSION), 6)
+    found = engine.poles(hung(HangingString()).replace(STEADY_TENSION), 6)
     exact = reference.steady_tension_frequencies(HangingString(), 6)
     yield each_close("w1 ... w6, rad/s, the worst", np.imag(found), exact, TOLERANCE, WHY)
 
@@ -52,7 +52,7 @@ def _steady_tension() -> Iterator[Check]:
 def _pendulum() -> Iterator[Check]:
     """A cable that weighs nothing beside its ROV: the first mode is a pendulum, the others are those of a fixed end."""
     string = HangingString(line_density=2.0, mass=2e6)
-    found = np.imag(engine.poles(hanging(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
+    found = np.imag(engine.poles(hung(string, grid__elements=16, grid__step=2e-4, control__period=2e-4), 4))
     share = string.line_density * string.length / string.mass
     yield close("w1, rad/s", found[0], np.sqrt(string.gravity / string.length), share, "the cable's share of the mass")
     speed = np.sqrt(string.mass * string.gravity / string.line_density)

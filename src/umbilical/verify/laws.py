@@ -54,7 +54,7 @@ def _outer() -> Iterator[Check]:
         estimate = observers[4] + paper.K_S * paper.MASS * velocity
         error = velocity + paper.BETA * z1
         found.append(boundary.boundary_thrust(paper.K_A, paper.BETA, paper.MASS, error, rate, known, estimate))
-        wanted.append(paper.outer_law(x1, z1, tension, observers)[0])
+        wanted.append(paper.commanded_thrust(x1, z1, tension, observers)[0])
     yield history_close("commanded thrust, N, at 200 states", found, wanted, ROUND_OFF, WHY)
 
 

@@ -21,7 +21,7 @@ from umbilical.verify.cases import Case, Check, each, history_close, order_reach
 from umbilical.verify.engine import constant, open_loop, sine
 from umbilical.verify.orders import DISPLACEMENT_ORDER, TIME_ORDER, TIP_ORDER, VELOCITY_ORDER
 from umbilical.verify.references import manufactured as exact
-from umbilical.verify.references.manufactured import Problem, Sea
+from umbilical.verify.references.manufactured import Sea, StringProblem
 
 UNTIL = 2.0
 ALONG, OVER = 1001, 801
@@ -40,17 +40,17 @@ LESS_DRAG = AT_SEA._replace(normal=0.2, body_linear=3.0, body_quadratic=4.0)
 """For orders: strong drag takes more of the error of a coarse grid than of a fine one, which hides them."""
 SIZES = {"growing": 4.0, "shrinking": -4.0}
 TERMS_OFF = {
-    "all terms": Problem(4.0),
-    "winch at a steady speed": Problem(4.0, steady=True),
-    "winch stopped": Problem(0.0),
-    "vessel still": Problem(4.0, vessel=0.0),
-    "cable undamped": Problem(4.0, damping=0.0),
-    "ROV undamped": Problem(4.0, tip_damping=0.0),
-    "cable without weight": Problem(2.0, cable_weight=0.0),
-    "lighter in water, growing": Problem(4.0, weight=350.0, cable_weight=8.0),
-    "lighter in water, shrinking": Problem(-4.0, weight=350.0, cable_weight=8.0),
-    "at sea, growing": Problem(4.0, sea=AT_SEA),
-    "at sea, shrinking": Problem(-4.0, sea=AT_SEA),
+    "all terms": StringProblem(4.0),
+    "winch at a steady speed": StringProblem(4.0, steady=True),
+    "winch stopped": StringProblem(0.0),
+    "vessel still": StringProblem(4.0, vessel=0.0),
+    "cable undamped": StringProblem(4.0, damping=0.0),
+    "ROV undamped": StringProblem(4.0, tip_damping=0.0),
+    "cable without weight": StringProblem(2.0, cable_weight=0.0),
+    "lighter in water, growing": StringProblem(4.0, weight=350.0, cable_weight=8.0),
+    "lighter in water, shrinking": StringProblem(-4.0, weight=350.0, cable_weight=8.0),
+    "at sea, growing": StringProblem(4.0, sea=AT_SEA),
+    "at sea, shrinking": StringProblem(-4.0, sea=AT_SEA),
 }
 TERM_TOLERANCE = 5e-5
 
@@ -79,7 +79,7 @@ def _separated(field: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
 
 
 @cache
-def _driven(problem: Problem, elements: int) -> Scenario:
+def _driven(problem: StringProblem, elements: int) -> Scenario:
     """The scenario, at any step."""
     t, sigma = np.linspace(0.0, UNTIL, OVER), _positions(elements)
 
@@ -89,7 +89,7 @@ def _driven(problem: Problem, elements: int) -> Scenario:
     loads = [
         {"profile": {"shape": "table", "positions": sigma.tolist(), "values": profile.tolist()},
          "signal": history(values)}
-        for profile, values in _separated(exact.load(problem, sigma, t[:, None]))
+        for profile, values in _separated(exact.cable_load(problem, sigma, t[:, None]))
     ]  # fmt: skip
     wet_line_density, sea = problem.cable_weight / problem.gravity, problem.sea
     return open_loop(
@@ -97,7 +97,7 @@ def _driven(problem: Problem, elements: int) -> Scenario:
         cable={"line_density": problem.line_density, "wet_line_density": wet_line_density, "damping": problem.damping},
         payload={"mass": problem.mass, "damping": problem.tip_damping, "wet_weight": problem.weight},
         environment__vessel_heave=_from_rest(sea.heave, exact.HEAVING) if sea.heave else None,
-        environment__cable_load=loads, environment__payload_force=history(exact.force(problem, t)),
+        environment__cable_load=loads, environment__payload_force=history(exact.tip_force(problem, t)),
         environment__vessel_motion=_from_rest(problem.vessel, 1.3), winch=_winch(problem),
         initial={"shape": "sine", "amplitude": problem.start, "half_waves": exact.WAVENUMBER / np.pi},
     ).replace(_water(sea))  # fmt: skip
@@ -131,21 +131,21 @@ def _water(sea: Sea) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _winch(problem: Problem) -> dict[str, Any]:
+def _winch(problem: StringProblem) -> dict[str, Any]:
     law = {"start_length": problem.start_length}
     if problem.steady:
         return law | {"law": "speed", "speed": problem.speed}
     return law | {"law": "cosine", "amplitude": problem.swing, "frequency": problem.frequency}
 
 
-def _solve(problem: Problem, elements: int, step: float) -> _Answer:
+def _solve(problem: StringProblem, elements: int, step: float) -> _Answer:
     """The engine's answer at the end."""
     run = engine.completed(_driven(problem, elements).replace({"grid.step": step, "control.period": step}))
     along = (run[name].values[-1] for name in ("displacement", "velocity"))
     return _Answer(run["sigma"].values, *along, *(run[name].values for name in ("tip_displacement", "tip_slope_rate")))
 
 
-def _errors(problem: Problem, elements: int) -> tuple[float, float, float]:
+def _errors(problem: StringProblem, elements: int) -> tuple[float, float, float]:
     """Root mean squares: of y and Dy/Dt along the cable at the end, of y at the ROV over time; no error in time.
 
     That is taken out by extrapolation from two steps.
@@ -159,7 +159,7 @@ def _errors(problem: Problem, elements: int) -> tuple[float, float, float]:
     return y_rms, w_rms, float(np.sqrt(np.mean(off_tip**2)))
 
 
-def _missed(problem: Problem, found: _Answer) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _missed(problem: StringProblem, found: _Answer) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """What y, Dy/Dt and y at the ROV are off by."""
     return (
         found.displacement - exact.displacement(problem, found.sigma, UNTIL),
@@ -168,7 +168,7 @@ def _missed(problem: Problem, found: _Answer) -> tuple[np.ndarray, np.ndarray, n
     )
 
 
-def in_space(problem: Problem) -> Iterator[Check]:
+def in_space(problem: StringProblem) -> Iterator[Check]:
     """Orders in the size of an element, on four grids."""
     found = np.array([_errors(problem, n) for n in ELEMENTS])
     sizes = tuple(60.0 / n for n in ELEMENTS)
@@ -181,7 +181,7 @@ def in_space(problem: Problem) -> Iterator[Check]:
     yield small(what, found[-1, 1] / leading, 3.0, why)
 
 
-def _in_time(problem: Problem) -> Iterator[Check]:
+def _in_time(problem: StringProblem) -> Iterator[Check]:
     """Orders in the step, from differences on one grid, where the grid's own error drops out."""
     solutions = [_solve(problem, 8, step) for step in STEPS]
     for place, name in ((1, "y"), (2, "Dy/Dt"), (3, "y(l,t)")):
@@ -196,7 +196,7 @@ def _in_time(problem: Problem) -> Iterator[Check]:
 
 def _slope_rate(swing: float) -> Iterator[Check]:
     """What an ideal sensor of the slope's rate reads at the ROV: no state, but made from the last element."""
-    problem = Problem(swing)
+    problem = StringProblem(swing)
     found = _solve(problem, 16, 1e-3).tip_slope_rate
     exact_rate = exact.tip_slope_rate(problem, np.linspace(0.0, UNTIL, found.size))
     why = "a derivative on 16 elements; with the ROV's velocity of the wrong sign it misses by 8e-4"
@@ -214,7 +214,7 @@ REFERENCE = "y = p sin(k sigma) + q cos(k sigma)"
 SOURCE = "(6)-(8), loads derived by hand, checked by sympy"
 CASES = (
     *(
-        Case(f"manufactured solution, l {way}, {what}", REFERENCE, SOURCE, partial(find, Problem(swing)))
+        Case(f"manufactured solution, l {way}, {what}", REFERENCE, SOURCE, partial(find, StringProblem(swing)))
         for way, swing in SIZES.items()
         for what, find in (("in space", in_space), ("in time", _in_time))
     ),

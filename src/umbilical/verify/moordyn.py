@@ -15,7 +15,7 @@ from umbilical.analysis.convergence import Curve
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, history_close, order_reached, small
 from umbilical.verify.engine import sine
-from umbilical.verify.hanging_string import hanging
+from umbilical.verify.hanging_string import hung
 from umbilical.verify.references import lumped_mass
 from umbilical.verify.references.hanging_string import HangingString, carried_tip
 
@@ -26,12 +26,12 @@ TOLERANCE = 1e-4
 WHY = "four digits, as for the frequencies; MoorDyn at 100 segments misses by 4e-3"
 
 
-def instants() -> np.ndarray:
+def sampled_instants() -> np.ndarray:
     """Instants of the comparison, s."""
     return np.arange(round(UNTIL / lumped_mass.STEP) + 1) * lumped_mass.STEP
 
 
-def vessel(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def faded_sine(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """e and its two derivatives: a sine that is faded in by ``10 q^3 - 15 q^4 + 6 q^5``."""
     q = np.clip(t / RAMP, 0.0, 1.0)
     fade = 10.0 * q**3 - 15.0 * q**4 + 6.0 * q**5
@@ -44,13 +44,13 @@ def vessel(t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @cache
 def _exact(string: HangingString) -> np.ndarray:
     """y(l,t), m, as the sum of 60 modes: six digits."""
-    t = instants()
-    return vessel(t)[0] + carried_tip(string, lambda u: vessel(u)[2], t)
+    t = sampled_instants()
+    return faded_sine(t)[0] + carried_tip(string, lambda u: faded_sine(u)[2], t)
 
 
 def _tip_of_run(string: HangingString) -> np.ndarray:
     """y(l,t), m, of the engine at the default grid."""
-    scenario = hanging(
+    scenario = hung(
         string, duration=UNTIL, output__interval=lumped_mass.STEP,
         environment__vessel_motion=[sine(AMPLITUDE, FREQUENCY)], environment__vessel_ramp=RAMP,
     )  # fmt: skip
@@ -60,7 +60,7 @@ def _tip_of_run(string: HangingString) -> np.ndarray:
 @cache
 def _other(string: HangingString, segments: int) -> np.ndarray:
     """y(l,t), m, of MoorDyn."""
-    e, velocity, _ = vessel(instants())
+    e, velocity, _ = faded_sine(sampled_instants())
     return lumped_mass.tip(string, segments, e, velocity)
 
 

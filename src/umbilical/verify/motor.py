@@ -12,7 +12,7 @@ from umbilical.run import Run
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, history_close
 from umbilical.verify.engine import constant
-from umbilical.verify.references.motor import integrate, linear_step, steady_state, without_inductance
+from umbilical.verify.references.motor import driven_motor, linear_step, steady_state, without_inductance
 
 MOTOR = {
     "inertia": 0.5, "viscous_friction": 0.015, "torque_constant": 4.0, "load_coefficient": 1.0, "resistance": 0.08,
@@ -46,7 +46,7 @@ def _held_voltage() -> Iterator[Check]:
 def _step_from_rest() -> Iterator[Check]:
     """75.015 V on a motor at rest."""
     run = _drive([constant(VOLTAGE)], 0.3)
-    speed, current = integrate(MOTOR, VOLTAGE, (0.0, 0.0), run["time"].values)
+    speed, current = driven_motor(MOTOR, VOLTAGE, (0.0, 0.0), run["time"].values)
     yield history_close("speed over 0.3 s, rad/s", run["motor_speed"].values[:, 0], speed, STEP, WHY)
     yield history_close("current over 0.3 s, A", run["motor_current"].values[:, 0], current, STEP, WHY)
 
@@ -56,8 +56,8 @@ def _reversal() -> Iterator[Check]:
     jump = 0.1003
     run = _drive([constant(50.0), {"kind": "step", "value": -100.0, "time": jump}], 0.3)
     t = run["time"].values
-    before = integrate(MOTOR, 50.0, (0.0, 0.0), np.append(t[t < jump], jump))
-    after = integrate(MOTOR, -50.0, (before[0, -1], before[1, -1]), np.append(jump, t[t > jump]))
+    before = driven_motor(MOTOR, 50.0, (0.0, 0.0), np.append(t[t < jump], jump))
+    after = driven_motor(MOTOR, -50.0, (before[0, -1], before[1, -1]), np.append(jump, t[t > jump]))
     exact = np.concatenate([before[:, :-1], after[:, 1:]], axis=1)
     why = "|w|w has a kink at 0; the jump one step late misses by 1e-2"
     yield history_close("speed over 0.3 s, rad/s", run["motor_speed"].values[:, 0], exact[0], 3.0 * STEP, why)

@@ -15,7 +15,7 @@ from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each, each_close, small
 from umbilical.verify.crosscheck import PEAKS, SOURCE
 from umbilical.verify.references import rope as reference
-from umbilical.verify.references.sea import Hanging, heave_of_masses
+from umbilical.verify.references.sea import SpringMasses, heave_of_masses
 
 G = 9.81
 HUNG = "Irvine, Cable Structures, 2"
@@ -47,7 +47,7 @@ def steady(length: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray
     return lambda t: (np.full(np.shape(t), length), np.zeros(np.shape(t)))
 
 
-def smooth_winch(start: float, end: float, duration: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+def quintic_winch(start: float, end: float, duration: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
     """A winch law without jerks at its ends."""
 
     def law(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -143,7 +143,7 @@ def _heave() -> Iterator[Check]:
         count, both = 200, partial(_place_and_pull, model)
         rows = recorded(model, 2.0 * np.pi / omega / count, count, both)
         found = np.abs(np.fft.rfft(rows, axis=0)[1]) * 2.0 / count / 0.3
-        place, _, top = heave_of_masses(Hanging(2e7, 5.0, 8000.0, 3000.0), 1.2e4, np.array([omega]))
+        place, _, top = heave_of_masses(SpringMasses(2e7, 5.0, 8000.0, 3000.0), 1.2e4, np.array([omega]))
         exact = [abs(place[0]), abs(top[0])]
         yield each_close(f"body and tension at the top at {omega:g} rad/s", found, exact, 4e-3, "first harmonic")
 
@@ -203,7 +203,7 @@ def _tow() -> Iterator[Check]:
 def _winch(ends: tuple[float, float]) -> Iterator[Check]:
     """Paying out or hauling in: the tension at the top follows (m + rho l)(g - a)."""
     start, end = ends
-    law = smooth_winch(start, end, 50.0)
+    law = quintic_winch(start, end, 50.0)
     model = RopeModel(CableData(2e8, 2.0, 2.0 * G), BodyData(500.0, 500.0 * G), Motion(law), booked=True)
     before = model.energy
 
@@ -224,7 +224,7 @@ def _moving_vessel(end: float) -> Iterator[Check]:
     """Paying out or hauling in under a vessel that moves in space: momentum against impulse."""
     waves = {0: (0.7, 0.5), 1: (1.0, 0.7), 2: (0.5, 0.9)}
     cable, body = CableData(2e7, 3.0, 3.0 * G), BodyData(800.0, 800.0 * G)
-    motion = Motion(smooth_winch(400.0, end, 40.0), waving(waves, 8.0))
+    motion = Motion(quintic_winch(400.0, end, 40.0), waving(waves, 8.0))
     model = RopeModel(cable, body, motion, booked=True)
     start, before, dt = _momentum(model), model.energy, 0.005
     f = np.array([_force(model), *recorded(model, dt, 8000, partial(_force, model))])

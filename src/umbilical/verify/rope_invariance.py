@@ -10,7 +10,7 @@ import numpy as np
 from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, fixed
 from umbilical.verify.cases import Case, Check, at_least, each_close, history_close, small
 from umbilical.verify.invariance import TWO_RUNS
-from umbilical.verify.rope import G, recorded, smooth_winch, steady, waving
+from umbilical.verify.rope import G, quintic_winch, recorded, steady, waving
 
 Turn = Callable[[np.ndarray], np.ndarray]
 
@@ -61,7 +61,7 @@ def _swinging(turn: Turn, carried: float = 0.0, cable: CableData = LINE) -> np.n
         return turn(place + np.multiply.outer(t, drift)), turn(speed + drift)
 
     current, body, force = Current(HEIGHTS, _levels(turn(SHEAR))), _body_with(BODY, turn), _vector(turn(FORCE))
-    model = RopeModel(cable, body, Motion(smooth_winch(200.0, 215.0, 10.0), sways if not carried else None), current,
+    model = RopeModel(cable, body, Motion(quintic_winch(200.0, 215.0, 10.0), sways if not carried else None), current,
                       elements=4, force=force)  # fmt: skip
     if carried:
         model.water = RopeModel(cable, body, fixed(200.0), Current(HEIGHTS, _levels(turn(SHEAR + drift))),
@@ -140,7 +140,7 @@ def _out_and_in() -> Iterator[Check]:
 
 def _drag_in_still_water() -> Iterator[Check]:
     """Drag only takes energy in still water, however the cable slides along itself."""
-    motion = Motion(smooth_winch(200.0, 212.0, 20.0), waving(SWAYS, 2.0))
+    motion = Motion(quintic_winch(200.0, 212.0, 20.0), waving(SWAYS, 2.0))
     model = RopeModel(LINE, BODY, motion, elements=4, booked=True)
     drags = ("work_drag", "work_body_drag")
     taken = np.diff(recorded(model, 0.05, 400, lambda: [model.works[name] for name in drags]), axis=0, prepend=0.0)

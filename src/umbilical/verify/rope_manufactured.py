@@ -15,8 +15,8 @@ from umbilical.plant.rope.statics import node_positions, unknowns
 from umbilical.verify.cases import Case, Check, each, order_reached, small
 from umbilical.verify.orders import ROPE_ORDER, TIME_ORDER
 from umbilical.verify.references import manufactured_rope as exact
-from umbilical.verify.references.manufactured_rope import Problem
-from umbilical.verify.rope import COMPUTED, smooth_winch, waving
+from umbilical.verify.references.manufactured_rope import RopeProblem
+from umbilical.verify.rope import COMPUTED, quintic_winch, waving
 
 UNTIL = 1.0
 STEPS = (8e-3, 4e-3, 2e-3, 1e-3)
@@ -28,7 +28,7 @@ STEP = 0.0256
 class _Driven:
     """The engine's rates with the loads of the manufactured solution, stepped by the classical Runge-Kutta method."""
 
-    def __init__(self, problem: Problem, elements: int) -> None:
+    def __init__(self, problem: RopeProblem, elements: int) -> None:
         p = problem
         cable = CableData(p.stiffness, p.density, p.weight, p.diameter, p.normal, p.tangential, p.added_mass)
         body = BodyData(p.mass, p.body_weight, p.body_added, drag=p.body_drag)
@@ -52,7 +52,7 @@ class _Driven:
         top = exact.fields(self.problem, np.zeros(1), t)
         outside.vessel_position[:] = top.place[:, 0]
         outside.vessel_speed[:] = top.velocity[:, 0] - outside.payout_speed * top.slope[:, 0]
-        outside.body_force[:] = exact.force(self.problem, t)
+        outside.body_force[:] = exact.body_force(self.problem, t)
         state.now[:] = values[: state.now.size].reshape(state.now.shape)
         state.body[0] = values[state.now.size :]
         evaluate(self.rope, state, outside, np.zeros(0), self.water, 0, False)
@@ -89,7 +89,7 @@ def _in_space(swing: float) -> Iterator[Check]:
     """Orders in the size of an element, and what is left on the finest grid."""
     rows = []
     for elements in ELEMENTS:
-        driven = _Driven(Problem(swing), elements)
+        driven = _Driven(RopeProblem(swing), elements)
         driven.march()
         rows.append(driven.missed())
     found, sizes = np.array(rows), tuple(60.0 / n for n in ELEMENTS)
@@ -104,7 +104,7 @@ def _in_time() -> Iterator[Check]:
     """The order in the step, from differences on one grid: paying out, the vessel in motion, in a current, taut."""
     cable = CableData(2e4, 2.0, 15.0, 0.04, 1.2)
     body = BodyData(40.0, 300.0, 20.0, drag=10.0)
-    motion = Motion(smooth_winch(60.0, 61.0, 2.0), waving({0: (0.3, 2.0), 2: (0.1, 2.5)}, 1.0))
+    motion = Motion(quintic_winch(60.0, 61.0, 2.0), waving({0: (0.3, 2.0), 2: (0.1, 2.5)}, 1.0))
     found = []
     for step in STEPS:
         model = RopeModel(cable, body, motion, Current(velocities=((0.3, -0.4, 0.0),)), elements=4, step=step)

@@ -11,7 +11,7 @@ from umbilical.scenario.ship import RaoShip
 from umbilical.screening import load_operation, operate, respond
 from umbilical.screening.criteria import Criterion
 from umbilical.screening.operation import HeaveCompensation
-from umbilical.screening.response import residual
+from umbilical.screening.response import residual_heave
 from umbilical.sea import BoxVessel, Spectrum, discretise, heave_of_point, motion_of_point, vessel_of
 from umbilical.sea.rao_checks import table_problems
 from umbilical.sea.spectrum import normalisation
@@ -83,7 +83,7 @@ def _heaving_cable() -> Iterator[Check]:
     """Body and tension of an elastic cable in heave against 2000 masses on springs."""
     omega = np.array([0.5, 0.7, 0.9, 1.2])
     ours = heave_transfer(Bar(2e7, 5.0, 8000.0, 3000.0), np.array([1.2e4]), omega)
-    exact = reference.heave_of_masses(reference.Hanging(2e7, 5.0, 8000.0, 3000.0), 1.2e4, omega)
+    exact = reference.heave_of_masses(reference.SpringMasses(2e7, 5.0, 8000.0, 3000.0), 1.2e4, omega)
     why = "the masses' own error"
     for name, found, expected in zip(("body, m/m", "end, N/m", "top, N/m"), ours[:3], exact, strict=True):
         yield each_close(f"heave at 0.5, 0.7, 0.9, 1.2 rad/s: {name}", abs(found[0]), abs(expected), 1e-5, why)
@@ -99,7 +99,7 @@ def _heave_in_the_tension() -> Iterator[Check]:
         "payload": {"mass": 8000.0, "damping": 0.0, "water": {"vertical_drag": 4500.0}, "wet_weight": 70e3},
         "environment.water": {}, "environment.vessel_heave": [sine(*wave) for wave in waves],
     }))  # fmt: skip
-    answer = reference.heave_with_drag(reference.Hanging(2e7, 5.0, 8000.0, 3000.0), 4500.0, omega, amplitude)
+    answer = reference.heave_with_drag(reference.SpringMasses(2e7, 5.0, 8000.0, 3000.0), 4500.0, omega, amplitude)
     turning = amplitude * np.exp(1j * (np.outer(run["time"].values, omega) + phase))
     for name, found, static in (("end", 1, 70e3), ("top", 2, 70e3 + 5.0 * 9.81 * 3000.0)):
         exact = static - np.real(turning @ answer[found])
@@ -131,9 +131,9 @@ def _screening() -> Iterator[Check]:
 def _compensation() -> Iterator[Check]:
     """A drive of 6 rad/s with a delay of 0.05 s, and what is left of the tension at 3000 m."""
     drive = HeaveCompensation(lag=0.05, bandwidth=6.0)
-    found = abs(residual(drive, 2.0 * np.pi / np.array([8.0, 6.0])))
+    found = abs(residual_heave(drive, 2.0 * np.pi / np.array([8.0, 6.0])))
     yield each_close("residual heave at 8 and 6 s", found, [0.2232, 0.2981], 5e-4, "printed to four digits")
-    pure = abs(residual(HeaveCompensation(lag=0.15, bandwidth=1e3, damping=0.7), 2.0 * np.pi / np.array([8.0])))
+    pure = abs(residual_heave(HeaveCompensation(lag=0.15, bandwidth=1e3, damping=0.7), 2.0 * np.pi / np.array([8.0])))
     exact = 2.0 * np.sin(np.pi / 8.0 * 0.15)
     yield close("residual of a delay of 0.15 s, 8 s", pure[0], exact, 0.02, "a drive of 1000 rad/s")
     operation = load_operation("work-class", {"compensation": {"lag": 0.05, "bandwidth": 6.0}})

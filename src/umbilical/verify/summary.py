@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import markdown, plain, table
+from umbilical.faces.text import finite_only, markdown, text_table
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification
@@ -31,7 +31,7 @@ def text(found: Verification) -> str:
         for result in results:
             lines.append(f"  {result.case.name}: {result.case.reference} ({result.case.source})")
             lines += [f"    skipped: {result.skipped}"] if result.skipped else []
-            lines.append(table([_line(check) for check in result.checks], right=(2, 3, 4, 5)))
+            lines.append(text_table([_line(check) for check in result.checks], right=(2, 3, 4, 5)))
         parts.append("\n".join(filter(None, lines)))
     return "\n" + "\n\n".join([*parts, found.headline])
 
@@ -68,7 +68,7 @@ def _row(check: Check) -> dict[str, Any]:
 
 def data(found: Verification) -> str:
     """JSON text; what is not finite becomes null."""
-    return json.dumps(plain(document(found)), indent=2, allow_nan=False) + "\n"
+    return json.dumps(finite_only(document(found)), indent=2, allow_nan=False) + "\n"
 
 
 def markdown_page(found: Verification, picture: str) -> str:

@@ -17,7 +17,7 @@ from umbilical.verify.hanging_string import BESSEL
 from umbilical.verify.hanging_string import SOURCE as CHAIN
 from umbilical.verify.manufactured import LESS_DRAG, REFERENCE, SIZES, in_space
 from umbilical.verify.references.hanging_string import HangingString, frequencies
-from umbilical.verify.references.manufactured import Problem
+from umbilical.verify.references.manufactured import StringProblem
 from umbilical.verify.references.water import Hung, Sliding
 
 DENSITY, GRAVITY, DIAMETER = 1025.0, 9.81, 0.04
@@ -146,7 +146,7 @@ def _slowed() -> Iterator[Check]:
 CLOSED = "closed form"
 CASES = (
     *each("manufactured solution, at sea, l {}", REFERENCE, "(A0) of docs/theory.md, loads derived by hand",
-          lambda swing: in_space(Problem(swing, sea=LESS_DRAG)), SIZES),
+          lambda swing: in_space(StringProblem(swing, sea=LESS_DRAG)), SIZES),
     *each("string in water, sheave at {:+g} m/s", "(S - rho v)/(S + rho v), waves of d'Alembert",
           "constant tension and speed", _returned, (1.0, 20.0, -20.0)),
     Case("string in water, tension", CLOSED, "axial balance of what hangs and sinks", _tensions),

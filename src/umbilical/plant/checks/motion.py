@@ -185,7 +185,7 @@ class Waves(NamedTuple):
     at_vessel: np.ndarray
 
 
-def waves_of(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Waves:
+def wave_terms(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Waves:
     """``sqrt(Tt/M)`` and the two ends of the transport tau = vb - v sigma, m/s, by the motion of the top end."""
     added, density = in_water(cable, payload, environment).added, cable.line_density
     inertia = density + added
@@ -208,7 +208,7 @@ def wave_speed(
     if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return
     t, motion = sampled
-    waves = waves_of(motion, cable, payload, environment)
+    waves = wave_terms(motion, cable, payload, environment)
     carried = np.maximum(np.abs(waves.at_payload), np.abs(waves.at_vessel))
     ratio = carried - waves.slowest
     worst = int(np.argmax(ratio))

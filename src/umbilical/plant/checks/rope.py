@@ -50,7 +50,7 @@ def signals(scenario: Scenario) -> Iterator[Finding]:
                 )
 
 
-def stretch(scenario: Scenario) -> Iterator[Finding]:
+def rope_stretch(scenario: Scenario) -> Iterator[Finding]:
     """The cable bears what hangs on it."""
     given, load = stiffness(scenario), max(weights_of(scenario))
     if given < _WEAK * load:
@@ -96,9 +96,9 @@ def thrusters(scenario: Scenario) -> Iterator[Finding]:
             yield Notice("rope.thrust_directions", "no motor pushes along y, where something acts: nothing holds y")
 
 
-def start(scenario: Scenario) -> Iterator[Finding]:
+def rope_start(scenario: Scenario) -> Iterator[Finding]:
     """There is a shape at rest to start from."""
-    if any(isinstance(found, Problem) for check in (weights, stretch, signals) for found in check(scenario)):
+    if any(isinstance(found, Problem) for check in (weights, rope_stretch, signals) for found in check(scenario)):
         return
     try:
         at_rest(scenario, rope_of(scenario), still_water(scenario))
@@ -120,9 +120,9 @@ def seconds_of(scenario: Scenario) -> float:
     return (_SECONDS * 5 * section(scenario).elements + _SECONDS_OF_WAVE * waves) * count
 
 
-def lean(scenario: Scenario) -> Iterator[Finding]:
+def _lean(scenario: Scenario) -> Iterator[Finding]:
     """A shape at the start is no longer than its cable: a metre of it reaches less than a metre aside."""
-    if any(True for _ in shapes(scenario.environment, scenario.initial)) or any(True for _ in start(scenario)):
+    if any(True for _ in shapes(scenario.environment, scenario.initial)) or any(True for _ in rope_start(scenario)):
         return
     length = float(top_at(scenario.winch, 0.0).length)
     steepest = float(np.abs(slope_of_shape(scenario, node_positions(section(scenario).elements))).max()) / length
@@ -152,5 +152,5 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
         )
 
 
-CHECKS = (signals, stretch, weights, thrusters, start, lean, steps)
+CHECKS = (signals, rope_stretch, weights, thrusters, rope_start, _lean, steps)
 """What only a scenario with ``model = "rope"`` is asked."""

@@ -19,7 +19,7 @@ from umbilical.scenario.ship import RaoShip
 from umbilical.scenario.signals import Waves
 from umbilical.scenario.winch import Winch
 from umbilical.sea.rao import RaoVessel, vessel_of
-from umbilical.sea.rao_checks import sea_problems, table_problems, told
+from umbilical.sea.rao_checks import assumed_of_table, sea_problems, table_problems
 from umbilical.sea.waves import wave_number
 
 STEEPEST = 1.0 / 7.0
@@ -38,9 +38,9 @@ def systems(environment: Environment) -> Iterator[Finding]:
         key = f"environment.sea.systems.{number}"
         given = [name for name in _PERIODS if getattr(system, name) is not None]
         if len(given) != 1:
-            told = " and ".join(given) or "no period"
+            assumed_of_table = " and ".join(given) or "no period"
             reason = "each of them sets the spectrum's scale in time"
-            yield Problem(key, told, f"exactly one of {', '.join(_PERIODS)}", reason, "leave one")
+            yield Problem(key, assumed_of_table, f"exactly one of {', '.join(_PERIODS)}", reason, "leave one")
             continue
         peak = spectrum_of(system).peak_period
         if not 2.0 <= peak <= 30.0:
@@ -53,7 +53,7 @@ def systems(environment: Environment) -> Iterator[Finding]:
                           "steeper seas do not exist", "a longer period, or metres for feet")  # fmt: skip
 
 
-def vessel(environment: Environment) -> Iterator[Finding]:
+def vessel_of_the_sea(environment: Environment) -> Iterator[Finding]:
     """A table of RAOs is as declared and knows the sea; what it leaves out is told."""
     if (sea := environment.sea) is None or not sound(environment):
         return
@@ -68,7 +68,7 @@ def vessel(environment: Environment) -> Iterator[Finding]:
         asked = [(system, heading) for system in sea.systems for heading in directions_of(system).tolist()]
         found = {p.key: p for s, heading in asked for p in sea_problems(table, spectrum_of(s), heading, key)}
         yield from found.values()
-        yield from (Notice(key, words) for words in told(sea.vessel))
+        yield from (Notice(key, words) for words in assumed_of_table(sea.vessel))
 
 
 def repetition(environment: Environment, duration: float) -> Iterator[Finding]:

@@ -68,7 +68,7 @@ def check_memory(scenario: Scenario) -> None:
         raise ScenarioError([problem], scenario.name)
 
 
-def instants(environment: Environment, motors: Sequence[Motor]) -> Iterator[Finding]:
+def stored_instants(environment: Environment, motors: Sequence[Motor]) -> Iterator[Finding]:
     """A step of the plant ends wherever a signal jumps or has a kink, and their number can be simulated."""
     for key, signal in (*of_environment(environment), *of_motors(motors)):
         count = len(signals.jumps(signal))

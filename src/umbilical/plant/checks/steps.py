@@ -8,7 +8,7 @@ from math import inf, pi, sqrt
 import numpy as np
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.motion import sampled_top, sunk, waves_of
+from umbilical.plant.checks.motion import sampled_top, sunk, wave_terms
 from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
@@ -57,10 +57,10 @@ def chosen_step(scenario: Scenario) -> float:
         from umbilical.plant.rope.assemble import rope_step  # with its kernels, which a string needs none of
 
         return _whole_part(scenario.control.period, min(scenario.grid.step, rope_step(scenario)))
-    waves = wave_step(
+    step_for_waves = wave_step(
         scenario.cable, scenario.payload, scenario.environment, scenario.winch, scenario.duration, scenario.grid
     )
-    return _whole_part(scenario.control.period, min(scenario.grid.step, waves))
+    return _whole_part(scenario.control.period, min(scenario.grid.step, step_for_waves))
 
 
 def _whole_part(period: float, largest: float) -> float:
@@ -74,13 +74,13 @@ def wave_step(
     if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
         return float("inf")  # the winch has its own problem
     _, motion = sampled
-    found = waves_of(motion, cable, payload, environment)
+    found = wave_terms(motion, cable, payload, environment)
     speed = found.fastest + np.maximum(np.abs(found.at_vessel), np.abs(found.at_payload))
     crossing = float(np.min(np.maximum(motion.length, 0.0) / speed))
     return _MARGIN * courant_limit() * crossing / grid.elements if crossing > 0.0 else float("inf")
 
 
-def waves(
+def step_for_waves(
     cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
 ) -> Iterator[Finding]:
     """The steps that the waves demand are not absurdly many."""
@@ -95,7 +95,7 @@ def waves(
         )
 
 
-def damping(
+def step_for_damping(
     cable: Cable, payload: Payload, environment: Environment, control: Control, grid: Grid
 ) -> Iterator[Finding]:
     """Damping is explicit too: within a step it takes less than about half of the speed."""

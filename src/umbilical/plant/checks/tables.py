@@ -31,7 +31,7 @@ class TableOf(NamedTuple):
     jumps: bool = False
 
 
-def table_problems(table: TableOf, points: Sequence[float], count: int) -> Iterator[Finding]:
+def problems_of_a_table(table: TableOf, points: Sequence[float], count: int) -> Iterator[Finding]:
     """Order, length, and whether the table covers (or exactly spans) its span."""
     if count != len(points):
         yield Problem(
@@ -110,7 +110,7 @@ def overshoot(points: Sequence[float], values: Sequence[float], span: tuple[floa
 
 def smoothness(table: TableOf, points: Sequence[float], values: Sequence[float], unit: str) -> Iterator[Finding]:
     """A sound table through which the smooth curve stays near the data."""
-    if any(True for _ in table_problems(table, points, len(values))):
+    if any(True for _ in problems_of_a_table(table, points, len(values))):
         return
     found = overshoot(points, values, table.span)
     at = f"{found.point:.6g} s" if table.across == "times" else f"x/l = {found.point:.6g}"

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from umbilical.errors import Problem
 from umbilical.plant import signals
 from umbilical.plant import winch as laws
-from umbilical.plant.checks.tables import TableOf, smoothness, table_problems
+from umbilical.plant.checks.tables import TableOf, problems_of_a_table, smoothness
 from umbilical.plant.exogenous import variation_of
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario import Scenario
@@ -89,7 +89,7 @@ def signals_of_the_motors(motors: Sequence[Motor], duration: float) -> Iterator[
 def tables_of_the_winch(winch: Winch, duration: float) -> Iterator[Finding]:
     """A tabulated length is sorted and covers the run."""
     if isinstance(winch, TabulatedLength):
-        yield from table_problems(_of_lengths(duration), winch.times, len(winch.lengths))
+        yield from problems_of_a_table(_of_lengths(duration), winch.times, len(winch.lengths))
 
 
 def smooth_signals(environment: Environment, motors: Sequence[Motor], duration: float) -> Iterator[Finding]:
@@ -101,7 +101,7 @@ def smooth_signals(environment: Environment, motors: Sequence[Motor], duration: 
                 yield from smoothness(table, term.times, term.values, _UNITS[key.split(".")[-1]])
 
 
-def smooth_winch(winch: Winch, duration: float) -> Iterator[Finding]:
+def winch_is_smooth(winch: Winch, duration: float) -> Iterator[Finding]:
     """The length between the instants of its table stays near the data."""
     if isinstance(winch, TabulatedLength):
         yield from smoothness(_of_lengths(duration), winch.times, winch.lengths, "m")
@@ -119,9 +119,9 @@ def shapes(environment: Environment, initial: InitialShape) -> Iterator[Finding]
         if isinstance(profile := load.profile, TableProfile):
             key = f"environment.cable_load.{number}.profile"
             table = TableOf(key, "positions", "values", (0.0, 1.0), exact=True)
-            yield from table_problems(table, profile.positions, len(profile.values))
+            yield from problems_of_a_table(table, profile.positions, len(profile.values))
     if isinstance(initial, TableShape):
-        yield from table_problems(_SHAPE, initial.positions, len(initial.displacements))
+        yield from problems_of_a_table(_SHAPE, initial.positions, len(initial.displacements))
 
 
 def jumps_after_the_end(
@@ -182,7 +182,7 @@ def check_signal(key: str, signal: Signal, duration: float) -> Iterator[Finding]
         place = f"{key}.{number}"
         if isinstance(term, Table):
             table = _of_times(place, duration, jumps=term.interpolation == "linear")
-            yield from table_problems(table, term.times, len(term.values))
+            yield from problems_of_a_table(table, term.times, len(term.values))
         if isinstance(term, Pulse) and term.end <= term.start:
             end, start = apart(term.end, term.start)
             yield Problem(

@@ -8,7 +8,7 @@ import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant.checks.motion import sampled_top
-from umbilical.plant.checks.tables import TableOf, table_problems
+from umbilical.plant.checks.tables import TableOf, problems_of_a_table
 from umbilical.plant.checks.timeline import signals_of_the_environment
 from umbilical.plant.signals import heave
 from umbilical.relations.instants import reaches
@@ -121,9 +121,9 @@ def current_profile(environment: Environment, winch: Winch, duration: float) -> 
         return
     place = TableOf("environment.water.current", "depths", "speeds", (current.depths[0], current.depths[-1]))
     across = current.speeds_across
-    broken = tuple(table_problems(place, current.depths, len(current.speeds)))
+    broken = tuple(problems_of_a_table(place, current.depths, len(current.speeds)))
     if across is not None and not broken:
-        broken = tuple(table_problems(place._replace(values="speeds_across"), current.depths, len(across)))
+        broken = tuple(problems_of_a_table(place._replace(values="speeds_across"), current.depths, len(across)))
     yield from broken
     fastest = max(map(abs, (*current.speeds, *(across or ()))))
     if fastest > _FASTEST_CURRENT:

@@ -59,7 +59,7 @@ def matrices(degree: int) -> Matrices:
     )
 
 
-def cable_rates(m: Matrices, t: float, q: Array, momentum: Array, force: float) -> tuple[Array, Array]:
+def _cable_rates(m: Matrices, t: float, q: Array, momentum: Array, force: float) -> tuple[Array, Array]:
     """q' and the rate of the momentum ``dL/dq' = (rho l M + m) q' + rho v B q``; ``force`` acts on the ROV, N."""
     length, v, a = paper.winch(t)
     inertia = paper.RHO * length * m.mass
@@ -96,9 +96,9 @@ def solve(force: Callable[[float], float], times: Array, degree: int = 40) -> Hi
         q, momentum, speed, current = np.split(state, [degree, 2 * degree, 2 * degree + 2, 2 * degree + 4])[:4]
         voltage, control_rates = controlled(t, state)
         bell = paper.motor_disturbances(t)[0][1] * np.ones(2)
-        motors = paper.motor_rates(speed, current, voltage, (bell, 0.2 * bell))
+        motors = paper.rates_of_motors(speed, current, voltage, (bell, 0.2 * bell))
         delivered = float(paper.THRUST @ (abs(speed) * speed))
-        cable = cable_rates(m, t, q, momentum, force(t) + delivered)
+        cable = _cable_rates(m, t, q, momentum, force(t) + delivered)
         return np.concatenate([*cable, *motors, *control_rates])
 
     found = integrated(rates, np.zeros(2 * degree + 17), times, method="DOP853", rtol=1e-8, atol=1e-11)

@@ -76,7 +76,7 @@ json.dump({"seconds": seconds, "found": found}, open(task["output"], "w"))
 """
 
 
-class Moved(NamedTuple):
+class MovedCable(NamedTuple):
     """What MoorDyn gave at each instant at which the vessel's motion was: place of the body, m, shape (instants, 3);
     tension in the last segment below the vessel, N; and the seconds it took, the settling left out."""
 
@@ -102,7 +102,7 @@ def tip(string: HangingString, segments: int, vessel: np.ndarray, velocity: np.n
     return move(_input(string, segments), place, speed, STEP).place[:, 0]
 
 
-def move(text: str, place: np.ndarray, velocity: np.ndarray, step: float) -> Moved:
+def move(text: str, place: np.ndarray, velocity: np.ndarray, step: float) -> MovedCable:
     """Move the vessel, point 1 of the input ``text``, after it hung still; point 2 is the body, line 1 the cable.
 
     Args:
@@ -127,7 +127,7 @@ def move(text: str, place: np.ndarray, velocity: np.ndarray, step: float) -> Mov
     found = np.array(given["found"])
     if not np.isfinite(found).all():
         raise CaseError("MoorDyn's answer is not finite")
-    return Moved(found[:, :3], found[:, 3], given["seconds"])
+    return MovedCable(found[:, :3], found[:, 3], given["seconds"])
 
 
 def _input(string: HangingString, segments: int) -> str:

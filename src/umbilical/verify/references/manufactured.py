@@ -75,7 +75,7 @@ class Sea(NamedTuple):
         return still * (1.0 + self.surge * np.sin(SURGING * t)), still * self.surge * SURGING * np.cos(SURGING * t)
 
 
-class Problem(NamedTuple):
+class StringProblem(NamedTuple):
     """Cable and ROV with their weights, N/m and N, and ``l = l0 + s (1 - cos w t)``.
 
     The cable grows or shrinks with the sign of s until pi/w. With ``steady`` the winch turns at the constant speed s w
@@ -133,13 +133,13 @@ class Problem(NamedTuple):
         return Histories(q0 * (1.0 - np.cos(w * t)), q0 * w * np.sin(w * t), q0 * w * w * np.cos(w * t))
 
 
-def displacement(problem: Problem, sigma: Array, t: Array | float) -> Array:
+def displacement(problem: StringProblem, sigma: Array, t: Array | float) -> Array:
     """y, m."""
     angle, now = WAVENUMBER * sigma, np.asarray(t)
     return problem.sine_part(now).value * np.sin(angle) + problem.cosine_part(now).value * np.cos(angle)
 
 
-def velocity(problem: Problem, sigma: Array, t: Array | float) -> Array:
+def velocity(problem: StringProblem, sigma: Array, t: Array | float) -> Array:
     """Dy/Dt, m/s."""
     now = np.asarray(t)
     p, q = problem.sine_part(now), problem.cosine_part(now)
@@ -148,7 +148,7 @@ def velocity(problem: Problem, sigma: Array, t: Array | float) -> Array:
     return (p.first - slide * q.value) * np.sin(angle) + (q.first + slide * p.value) * np.cos(angle)
 
 
-def tip_slope_rate(problem: Problem, t: Array) -> Array:
+def tip_slope_rate(problem: StringProblem, t: Array) -> Array:
     """D(y_x)/Dt at the ROV, 1/s: there A = 0, so it is the plain time derivative of the slope."""
     p, q = problem.sine_part(t), problem.cosine_part(t)
     length, speed, _ = problem.winch(t)
@@ -157,7 +157,7 @@ def tip_slope_rate(problem: Problem, t: Array) -> Array:
     return WAVENUMBER / length * (rate - speed / length * value)
 
 
-def _along(problem: Problem, sigma: Array, t: Array, carrier: Array, change: Array) -> tuple[Array, Array]:
+def _along(problem: StringProblem, sigma: Array, t: Array, carrier: Array, change: Array) -> tuple[Array, Array]:
     """``L y`` and ``L^2 y`` for ``L = d_t + w d_x`` at a fixed place, w the ``carrier`` and w' its ``change``.
 
     Over sigma that is ``d_t + b d_sigma`` with ``b = (w - v sigma)/l``.
@@ -175,7 +175,7 @@ def _along(problem: Problem, sigma: Array, t: Array, carrier: Array, change: Arr
     return once, twice
 
 
-def load(problem: Problem, sigma: Array, t: Array) -> Array:
+def cable_load(problem: StringProblem, sigma: Array, t: Array) -> Array:
     """f, N/m, at the places sigma and instants t, which broadcast: (A0) of docs/theory.md solved for it."""
     sea, k = problem.sea, WAVENUMBER
     length, speed, acceleration = problem.winch(t)
@@ -196,7 +196,7 @@ def load(problem: Problem, sigma: Array, t: Array) -> Array:
     return inertia - pull + problem.damping * material - drag
 
 
-def force(problem: Problem, t: Array) -> Array:
+def tip_force(problem: StringProblem, t: Array) -> Array:
     """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
     sea = problem.sea
     p, q = problem.sine_part(t), problem.cosine_part(t)
@@ -213,7 +213,7 @@ def force(problem: Problem, t: Array) -> Array:
     return inertia + problem.tension_at_the_tip(t) * slope + problem.tip_damping * first - drag - moved
 
 
-def wave_amplitude(problem: Problem, t: float) -> float:
+def wave_amplitude(problem: StringProblem, t: float) -> float:
     """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum; no water."""
     sigma = np.linspace(0.0, 1.0, 201)
     length, _, acceleration = problem.winch(np.asarray(t))

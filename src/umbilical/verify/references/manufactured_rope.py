@@ -16,7 +16,7 @@ WAVENUMBER = 1.3 * np.pi
 SEA_WATER = 1025.0
 
 
-class Problem(NamedTuple):
+class RopeProblem(NamedTuple):
     """Cable and body, SI units, and ``l = l0 + s (t + (1 - cos t)/5)``; the cable is taut and slides one way."""
 
     swing: float
@@ -40,7 +40,7 @@ class Problem(NamedTuple):
         return length, self.swing * (1.0 + 0.2 * np.sin(t)), 0.2 * self.swing * np.cos(t)
 
 
-class Fields(NamedTuple):
+class RopeFields(NamedTuple):
     """r, r_x, W = Dr/Dt and DW/Dt at some places and an instant, each of shape (3, places), and derivatives in x."""
 
     place: Array
@@ -51,7 +51,7 @@ class Fields(NamedTuple):
     velocity_x: Array
 
 
-def _histories(problem: Problem, t: float) -> Array:
+def _histories(problem: RopeProblem, t: float) -> Array:
     """a, b, c, d with two time derivatives, shape (4, 3 derivatives, 3 axes)."""
     length, speed, acceleration = problem.winch(t)
 
@@ -73,7 +73,7 @@ def _histories(problem: Problem, t: float) -> Array:
     )
 
 
-def fields(problem: Problem, sigma: Array, t: float) -> Fields:
+def fields(problem: RopeProblem, sigma: Array, t: float) -> RopeFields:
     """The solution and what follows from it by the chain rule."""
     length, speed, acceleration = problem.winch(t)
     k, above = WAVENUMBER, 1.0 - sigma
@@ -90,7 +90,7 @@ def fields(problem: Problem, sigma: Array, t: float) -> Fields:
     rate = acceleration / length - g * g
     r_s, r_ss, r_ts = of(first, 0), of(second, 0), of(first, 1)
     moving = of(shapes, 2) + rate * above * r_s + 2.0 * g * above * r_ts + g * g * above * (above * r_ss - r_s)
-    return Fields(
+    return RopeFields(
         place=of(shapes, 0),
         slope=r_s / length,
         velocity=of(shapes, 1) + g * above * r_s,
@@ -100,7 +100,7 @@ def fields(problem: Problem, sigma: Array, t: float) -> Fields:
     )
 
 
-def acceleration_given(problem: Problem, sigma: Array, t: float) -> Array:
+def acceleration_given(problem: RopeProblem, sigma: Array, t: float) -> Array:
     """What a load must add to DW/Dt, m/s2, shape (3, places): Mb^-1 times the force that the equations lack."""
     f = fields(problem, sigma, t)
     area = np.pi / 4.0 * problem.diameter**2
@@ -127,7 +127,7 @@ def acceleration_given(problem: Problem, sigma: Array, t: float) -> Array:
     return (lacking - side) / problem.density + side / (problem.density + added)
 
 
-def force(problem: Problem, t: float) -> Array:
+def body_force(problem: RopeProblem, t: float) -> Array:
     """What must act on the body, N, shape (3,)."""
     f = fields(problem, np.ones(1), t)
     slope, velocity, acceleration = f.slope[:, 0], f.velocity[:, 0], f.acceleration[:, 0]

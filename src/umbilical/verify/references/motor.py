@@ -21,7 +21,7 @@ def steady_state(motor: Motor, voltage: float) -> tuple[float, float]:
     return float(speed), float((voltage - motor["back_emf_constant"] * speed) / motor["resistance"])
 
 
-def integrate(motor: Motor, voltage: float, start: tuple[float, float], t: np.ndarray) -> np.ndarray:
+def driven_motor(motor: Motor, voltage: float, start: tuple[float, float], t: np.ndarray) -> np.ndarray:
     """Speed and current, shape (2, t), from ``start`` under a constant voltage, by DOP853 at 1e-12.
 
     Raises:

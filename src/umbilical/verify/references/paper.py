@@ -30,7 +30,7 @@ def winch(t: float) -> tuple[float, float, float]:
     return 450 + 50 * (10 * q**3 - 15 * q**4 + 6 * q**5), 50 * rate, 50 * (60 * q - 180 * q**2 + 120 * q**3) / 2500.0
 
 
-def force(t: float) -> float:
+def payload_force(t: float) -> float:
     """External force on the ROV, N."""
     return 100 + 50 * np.sin(0.7 * t) + 30 * np.sin(0.5 * t) + 20 * np.sin(0.9 * t)
 
@@ -41,7 +41,7 @@ def motor_disturbances(t: float) -> tuple[np.ndarray, np.ndarray]:
     return both, 0.2 * both
 
 
-def outer_law(x1: float, z1: float, tension: float, s: np.ndarray) -> tuple[float, np.ndarray]:
+def commanded_thrust(x1: float, z1: float, tension: float, s: np.ndarray) -> tuple[float, np.ndarray]:
     """Commanded thrust, and the rates of pi1, pi2, chi1, chi2, phi: (17), (19), (21), (22)."""
     pi1, pi2, chi1, chi2, phi = s
     x2, z2 = pi2 / EPS, chi2 / EPS
@@ -71,7 +71,7 @@ def motor_loops(thrust: float, w: np.ndarray, i: np.ndarray, f: np.ndarray, ups:
     return drive / F23, f_rate, ups_rate
 
 
-def motor_rates(
+def rates_of_motors(
     w: np.ndarray, i: np.ndarray, voltage: np.ndarray, disturbances: tuple[np.ndarray, np.ndarray]
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rates of speeds and currents under torques, N m, and voltages, V, from outside: (15)."""
@@ -86,12 +86,12 @@ def controlled(tip: float, slope: float, tension: float, tail: np.ndarray) -> tu
         tip, slope, tension: y(l), m, y_x(l) and T(l), N.
         tail: speeds, currents, outer observers, filters and motor observers, shape (17,).
     """
-    thrust, observer_rates = outer_law(tip, slope, tension, tail[4:9])
+    thrust, observer_rates = commanded_thrust(tip, slope, tension, tail[4:9])
     voltage, filter_rates, ups_rate = motor_loops(thrust, tail[0:2], tail[2:4], tail[9:15].reshape(3, 2), tail[15:17])
     return voltage, [observer_rates, filter_rates.ravel(), ups_rate]
 
 
-def rates(t: float, state: np.ndarray) -> np.ndarray:
+def loop_rates(t: float, state: np.ndarray) -> np.ndarray:
     """Time derivative of y and Dy/Dt at nodes 1 to N, motors, observers, filters."""
     length, v, a = winch(t)
     h = length / N
@@ -103,7 +103,7 @@ def rates(t: float, state: np.ndarray) -> np.ndarray:
     slope = (3 * y[N] - 4 * y[N - 1] + y[N - 2]) / (2 * h)
 
     voltage, control_rates = controlled(y[N], slope, MASS * (GRAVITY - a), tail)
-    motors = motor_rates(speed, current, voltage, motor_disturbances(t))
+    motors = rates_of_motors(speed, current, voltage, motor_disturbances(t))
 
     y_rate, w_rate = w.copy(), np.empty(N + 1)
     carried = v * (1 - XI[1:N]) / (2 * h)
@@ -111,7 +111,7 @@ def rates(t: float, state: np.ndarray) -> np.ndarray:
     w_rate[1:N] = np.diff(pull) / (RHO * h) - DAMPING / RHO * w[1:N] - carried * (w[2:] - w[:-2])
     delivered = THRUST @ (abs(speed) * speed)
     # The last half interval of cable moves with the ROV: second order, and no one-sided difference in the balance.
-    load = -pull[-1] - TIP_DAMPING * w[N] - DAMPING * h / 2 * w[N] + force(t) + delivered
+    load = -pull[-1] - TIP_DAMPING * w[N] - DAMPING * h / 2 * w[N] + payload_force(t) + delivered
     w_rate[N] = load / (MASS + RHO * h / 2)
     return np.concatenate([y_rate[1:], w_rate[1:], *motors, *control_rates])
 
@@ -122,5 +122,5 @@ def displacement(times: np.ndarray) -> np.ndarray:
     Raises:
         CaseError: scipy gave up, or the state is not finite.
     """
-    found = integrated(rates, np.zeros(2 * N + 17), times, rtol=1e-6, atol=1e-9)
+    found = integrated(loop_rates, np.zeros(2 * N + 17), times, rtol=1e-6, atol=1e-9)
     return np.concatenate([np.zeros((1, times.size)), found[:N]]).T

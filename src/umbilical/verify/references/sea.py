@@ -40,7 +40,7 @@ def jonswap_ratios(gamma: float) -> tuple[float, float]:
     return float(moment[0] / moment[1]), float(np.sqrt(moment[0] / moment[2]))
 
 
-class Hanging(NamedTuple):
+class SpringMasses(NamedTuple):
     """A cable as masses on springs with a body at its end; SI units."""
 
     stiffness: float
@@ -50,11 +50,13 @@ class Hanging(NamedTuple):
     masses: int = 2000
 
 
-WORK_CLASS = Hanging(2.6e7, 5.412, 17000.0, 3000.0, 600)
+WORK_CLASS = SpringMasses(2.6e7, 5.412, 17000.0, 3000.0, 600)
 """The work-class umbilical with its body, added mass included."""
 
 
-def heave_of_masses(cable: Hanging, damping: float, omega: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def heave_of_masses(
+    cable: SpringMasses, damping: float, omega: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Heave of the body, tension at the body and at the sheave per metre of heave, by a march from the body upwards."""
     step = cable.length / cable.masses
     spring, each = cable.stiffness / step, cable.line_density * step
@@ -69,7 +71,7 @@ def heave_of_masses(cable: Hanging, damping: float, omega: np.ndarray) -> tuple[
 
 
 def heave_with_drag(
-    cable: Hanging, drag: float, omega: np.ndarray, amplitude: np.ndarray
+    cable: SpringMasses, drag: float, omega: np.ndarray, amplitude: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The same with quadratic drag, linearised for sines of the sheave, m, by fixed-point iteration."""
     velocity = 0.5
@@ -159,7 +161,12 @@ def work_class_statistics(height: float, depth: float, heading: float) -> dict[s
 
 
 def masses_in_waves(
-    cable: Hanging, drag: float, omega: np.ndarray, waves: np.ndarray, window: tuple[float, float], masses: int = 40
+    cable: SpringMasses,
+    drag: float,
+    omega: np.ndarray,
+    waves: np.ndarray,
+    window: tuple[float, float],
+    masses: int = 40,
 ) -> np.ndarray:
     """Rms of the tension at top and body, N, and of the body's heave, m, between two instants; leapfrog.
 
