@@ -8,8 +8,8 @@ import pytest
 import xarray
 
 from tests.support import browser
-from umbilical.reproduce import expected, reproduction
-from umbilical.reproduce.article import article
+from umbilical.papers.rao2022 import expected, reproduction
+from umbilical.papers.rao2022.article import article
 
 
 def test_some_figures_with_their_data(umbilical, tmp_path) -> None:

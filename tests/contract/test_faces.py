@@ -11,7 +11,7 @@ import umbilical.errors
 from umbilical import plots
 from umbilical.analysis.comparison import Comparison
 from umbilical.certificate import Certificate
-from umbilical.reproduce.reproduction import Reproduction
+from umbilical.papers.rao2022.reproduction import Reproduction
 from umbilical.result import ResultFaces
 from umbilical.run import Run
 from umbilical.screening.lower import Lowering

@@ -133,7 +133,7 @@ from umbilical.stability.grid import on_grid
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.initial import initial_slopes
 from umbilical.relations.tension import hanging_of, net_gravity
-from umbilical.reproduce.lyapunov import lyapunov
+from umbilical.papers.rao2022.lyapunov import lyapunov
 
 gravity = float(sys.argv[1])
 base = {"environment.gravity": gravity, "grid.elements": 4, "control.law.slope_gain": 10.0}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray
 
-from umbilical.reproduce.experiments import ARMS, OBSERVERS
-from umbilical.reproduce.maps import GAIN_CASES, GAINS, SLICES, Axis
+from umbilical.papers.rao2022.experiments import ARMS, OBSERVERS
+from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS, SLICES, Axis
 
 
 def made_up_maps(diverging: float = 0.1) -> dict[str, xarray.Dataset]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from writing import page, table
 
-from umbilical.reproduce.errata import errata as read
+from umbilical.papers.rao2022.errata import errata as read
 
 
 def errata() -> str:

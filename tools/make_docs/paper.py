@@ -9,8 +9,8 @@ from typing import Any
 
 from writing import page, table
 
-from umbilical.reproduce.expected import published
-from umbilical.reproduce.ledger import percent, short
+from umbilical.papers.rao2022.expected import published
+from umbilical.papers.rao2022.ledger import percent, short
 
 TEMPLATE = Path(__file__).with_name("paper.md")
 

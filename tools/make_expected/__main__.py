@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 from umbilical import files
+from umbilical.papers.rao2022.expected import FILE, deviations, expected_text
+from umbilical.papers.rao2022.reproduction import reproduce
 from umbilical.plots.figure import render
-from umbilical.reproduce.expected import FILE, deviations, expected_text
-from umbilical.reproduce.reproduction import reproduce
 
 ROOT = Path(__file__).resolve().parents[2]
 SHOWN = ("fig3", "fig6", "absorption", "adaptation", "gain", "map-rates")
@@ -26,7 +26,7 @@ def main() -> int:
     found = reproduce(progress=lambda share: print(f"\r{share:4.0%}", end="", file=sys.stderr))
     for moved in deviations(found.findings):
         print(moved)
-    target = ROOT / "src" / "umbilical" / "reproduce" / FILE
+    target = ROOT / "src" / "umbilical" / "papers" / "rao2022" / FILE
     files.write(target, expected_text(found.findings).encode(), force=True)
     for one in found.shown:
         if one.picture.name in SHOWN:

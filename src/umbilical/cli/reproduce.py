@@ -13,7 +13,7 @@ from umbilical.cli.output import report
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
-    from umbilical.reproduce import Reproduction
+    from umbilical.papers.rao2022 import Reproduction
 
 
 def reproduce(
@@ -37,9 +37,9 @@ def reproduce(
     """
     names = check_names(figures or [], maps=maps, check=check)
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.reproduce import reproduction
-    from umbilical.reproduce.article import article
-    from umbilical.reproduce.summary import conclusion, document, moved_in, text
+    from umbilical.papers.rao2022 import reproduction
+    from umbilical.papers.rao2022.article import article
+    from umbilical.papers.rao2022.summary import conclusion, document, moved_in, text
     from umbilical.studies.engines import default_jobs
 
     make_room(out, reproduction.targets(reproduction.choose(names, maps=maps), out, report=not names), force=force)
@@ -60,8 +60,8 @@ def reproduce(
 
 def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
     """The figures asked for, each once; refused if they are not there, are left out, or there is nothing to check."""
-    from umbilical.reproduce import PICTURES
-    from umbilical.reproduce.maps import MAPS
+    from umbilical.papers.rao2022 import PICTURES
+    from umbilical.papers.rao2022.maps import MAPS
 
     unknown = [name for name in names if name not in PICTURES]
     if unknown:
@@ -75,7 +75,7 @@ def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
 
 def _files(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
     """Where the files are."""
-    from umbilical.reproduce.reproduction import KINDS
+    from umbilical.papers.rao2022.reproduction import KINDS
 
     figures = f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}"
     return "\n".join([figures, *([f"report: {written['report']}"] if "report" in written else [])])

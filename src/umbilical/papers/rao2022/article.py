@@ -1,0 +1,184 @@
+"""The report of a reproduction: what was run, the ledger, the figures, the assumptions, the errata, the versions."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Collection, Iterator
+from hashlib import sha256
+
+from umbilical.library import load
+from umbilical.papers.rao2022.errata import errata
+from umbilical.papers.rao2022.expected import Deviation
+from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell
+from umbilical.papers.rao2022.figures import DOI, PICTURES, SEEN_IN, SOURCE
+from umbilical.papers.rao2022.ledger import Finding, Verdict
+from umbilical.papers.rao2022.map_runs import GRID
+from umbilical.papers.rao2022.reproduction import KINDS, Reproduction
+from umbilical.report import (
+    Html,
+    Section,
+    assumed_table,
+    code,
+    drawing,
+    element,
+    given_table,
+    join,
+    link,
+    page,
+    paragraph,
+    prose,
+    runs_table,
+    table,
+    versions_table,
+)
+
+HASH = 16
+"""Digits of the hash of a file that are shown."""
+CLASSES = {Verdict.HOLDS: "holds", Verdict.CONDITIONAL: "part", Verdict.FAILS: "fails"}
+
+
+def article(found: Reproduction, moved: list[Deviation]) -> str:
+    """The report as one HTML document.
+
+    Args:
+        found: the reproduction, with its ledger.
+        moved: what is not as published.
+    """
+    sections = (
+        Section("ledger", "Claims", _ledger(found)),
+        Section("figures", "Figures", _figures(found)),
+        Section("given", "What the paper gives", _given(found)),
+        Section("assumed", "What is assumed", _assumed(found)),
+        Section("runs", "What was run", _runs(found)),
+        Section("errata", "Errata", _errata()),
+        Section("versions", "Versions", join([versions_table(), _hashes(found)])),
+    )
+    return page(
+        "Vibration cascade control of a cable and its ROV: the paper, reproduced", _lead(found, moved), sections
+    )
+
+
+def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
+    count = Counter(finding.verdict for finding in found.findings)
+    told = (
+        f"Of {len(found.findings)} statements {count[Verdict.HOLDS]} hold, {count[Verdict.CONDITIONAL]} under a "
+        "condition; "
+        f"not reproduced: {count[Verdict.FAILS]}."
+    )
+    check = "Every number is as published, within its tolerance." if not moved else "Not as published:"
+    return join(
+        [
+            paragraph(
+                "Of ",
+                SOURCE.removesuffix(DOI),
+                link(DOI, f"https://doi.org/{DOI}"),
+                ". Made by ",
+                element("code", "umbilical reproduce"),
+                "; every number and every verdict is computed.",
+            ),
+            paragraph(told, " ", check),
+            *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),
+            *([] if found.mapped else [paragraph("The maps were left out (--no-maps).")]),
+        ]
+    )
+
+
+def _ledger(found: Reproduction) -> Html:
+    findings = found.findings
+    rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
+    ledger = table(("claim", "statement", "verdict"), rows, caption="The ledger", stacked=True)
+    shown = {one.picture.name for one in found.shown}
+    return join([ledger, *(_claim(finding, shown) for finding in findings)])
+
+
+def _verdict(finding: Finding) -> Html:
+    return element("span", finding.conclusion, class_=f"verdict {CLASSES[finding.verdict]}")
+
+
+def _claim(finding: Finding, shown: Collection[str]) -> Html:
+    """One claim; its figures are linked where they are on the page."""
+    rows = [(n.meaning, f"{n.value:.4g}", "" if n.unit == "1" else n.unit) for n in finding.numbers]
+    links = [link(PICTURES[name].title, f"#{name}") for name in SEEN_IN[finding.id] if name in shown]
+    numbers = table(("number", "value", "unit"), rows, numbers=(1,))
+    return element(
+        "article",
+        element("h3", f"{finding.id}. {finding.statement}"),
+        paragraph("Verdict: ", _verdict(finding), ". ", finding.because),
+        paragraph(element("b", "Where. "), finding.region),
+        paragraph(element("b", "Measure. "), finding.measure, class_="quiet"),
+        *([paragraph(element("b", "Figures. "), join(links, ", "), class_="quiet")] if links else []),
+        element("details", element("summary", f"{len(rows)} numbers"), numbers),
+        class_="claim",
+        id=finding.id,
+    )
+
+
+def _figures(found: Reproduction) -> Html:
+    coarse = paragraph(
+        f"Maps run on {GRID['grid.elements']} elements, figures and all other numbers on the grid of their preset; the "
+        "tests compare both.",
+        class_="quiet",
+    )
+    drawn = [
+        drawing(
+            one.svg,
+            one.picture.name,
+            one.picture.title,
+            one.picture.caption,
+            [f"{one.picture.name}.{kind}" for kind in KINDS],
+        )
+        for one in found.shown
+    ]
+    return join([coarse, element("div", *drawn, class_="figures")])
+
+
+def _given(found: Reproduction) -> Html:
+    runs = found.runs
+    fault = ("faults.1.start",)
+    gains = ("control.law.position_gain", "control.law.velocity_gain")
+    return join(
+        [
+            given_table(
+                runs[cell("none", "without")].scenario,
+                "Table 2 and section 4 of the paper, with our correction of units",
+            ),
+            given_table(runs["pd"].scenario, "Gains of the PD baseline", gains),
+            given_table(runs[cell("stuck", "with")].scenario, "The fault", fault),
+        ]
+    )
+
+
+def _assumed(found: Reproduction) -> Html:
+    names = dict.fromkeys(EXPERIMENTS[name].preset for name in found.runs)
+    words = paragraph(
+        "What the paper does not print had to be chosen. The reasons are those of the presets: "
+        f"{', '.join(names)}. A later one is named only with what it adds."
+    )
+    return join([words, assumed_table([load(name) for name in names], "Assumed, in all presets that were run")])
+
+
+def _runs(found: Reproduction) -> Html:
+    return runs_table(list(_rows(found)), "Experiments; an empty column of changes means the preset as it is")
+
+
+def _rows(found: Reproduction) -> Iterator[tuple]:
+    for name, run in found.runs.items():
+        experiment = EXPERIMENTS[name]
+        changes = ", ".join(f"{key} = {json.dumps(value)}" for key, value in experiment.changes.items())
+        yield experiment.what, experiment.preset, changes, run
+
+
+def _hashes(found: Reproduction) -> Html:
+    rows = [(f"{one.picture.name}.nc", code(sha256(one.contents["nc"]).hexdigest()[:HASH])) for one in found.shown]
+    words = f"The first {HASH} digits of SHA-256; the same versions and scenarios give the same data, on any day"
+    return table(("file", "hash"), rows, caption=f"The data. {words}")
+
+
+def _errata() -> Html:
+    intro, sections = errata()
+    tables = [
+        table(("where", "printed", "ours", "why"), [tuple(map(prose, entry)) for entry in entries], caption=title)
+        for title, entries in sections.items()
+    ]
+    return join([*(paragraph(prose(part)) for part in intro.split("\n\n")), *tables])

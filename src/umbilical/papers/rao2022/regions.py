@@ -1,0 +1,173 @@
+"""Where something holds: counts of diverged runs, edges of stability, and where one arm overtakes the other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from umbilical.papers.rao2022.experiments import ARMS, GRIDS, OBSERVERS
+from umbilical.papers.rao2022.ledger import Edge, Kind, Number, percent, short
+from umbilical.papers.rao2022.map_runs import GRID, Changes, Point, gain_point, run_points
+from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS
+from umbilical.papers.rao2022.progress import Progress
+
+if TYPE_CHECKING:
+    import xarray
+
+Place = tuple[str, str, str]
+"""Case, arm and observer."""
+CASE_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
+HALVINGS = 5
+"""Of a step between two gains of the scan, a factor of 1.26: the edge is then known to 0.8 per cent."""
+NEAR = 1.03
+"""Factor below and above an edge at which the grids are asked."""
+
+
+class Region(NamedTuple):
+    """Numbers, what they say, and what completes "only when" where they bound the claim."""
+
+    numbers: tuple[Number, ...]
+    words: str
+    when: str = ""
+
+
+def diverged(data: xarray.Dataset, arm: str) -> tuple[int, int]:
+    """How many cells of a map diverged in an arm, and how many there are."""
+    lost = np.isnan(data["peak"].sel(arm=arm).values)
+    return int(lost.sum()), lost.size
+
+
+def without_repeats(data: xarray.Dataset) -> xarray.Dataset:
+    """A map with each run of fault control once: what the factors are believed to be means nothing to it."""
+    return data.isel(believed_ratio=[0]) if "believed_ratio" in data.dims else data
+
+
+def better(data: xarray.Dataset, arm: str, observer: str) -> np.ndarray:
+    """In which cells of a map an arm has the lower peak than known factors."""
+    peaks = data["peak"].sel(observer=observer)
+    return (peaks.sel(arm=arm) < peaks.sel(arm="without")).values
+
+
+def row(data: xarray.Dataset, along: str) -> xarray.Dataset:
+    """The cells of a map along one of its axes, the other number being that of the presets."""
+    across, at = ("y", "paper_y") if data.attrs["x"] == along else ("x", "paper_x")
+    return data.sel({data.attrs[across]: data.attrs[at]}, method="nearest")
+
+
+def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[Place, Edge]:
+    """Least gain of the allocation at which the loop runs away, by case, arm and observer.
+
+    Bisection between the last gain of the scan that stays and the first that does not; nan where all stay.
+    """
+    places: list[Place] = [*product(GAIN_CASES, ARMS, OBSERVERS)]
+    brackets: dict[Place, tuple[float, float]] = {place: _bracket(gain, place) for place in places}
+    for step in range(HALVINGS):
+        brackets = _halved(brackets)
+        if progress:
+            progress((step + 1) / HALVINGS)
+    return {
+        place: Edge(high, bool(np.isfinite(high)) and same_on_grids(high, place))
+        for place, (_, high) in brackets.items()
+    }
+
+
+def _bracket(gain: xarray.Dataset, place: Place) -> tuple[float, float]:
+    """The last gain that stays before the first that runs away, and that one."""
+    peaks, gains = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values, GAINS
+    lost = np.flatnonzero(np.isnan(peaks))
+    if not lost.size:
+        return gains[-1], float("nan")
+    return gains[max(lost[0] - 1, 0)], gains[lost[0]]
+
+
+def _halved(brackets: Mapping[Place, tuple[float, float]]) -> dict[Place, tuple[float, float]]:
+    """Brackets half as wide, on the scale of logarithms."""
+    middles = {place: float(np.sqrt(low * high)) for place, (low, high) in brackets.items() if np.isfinite(high)}
+    points = {place: _point(place, middle) for place, middle in middles.items()}
+    found = run_points(points.values())
+    lost = {place: np.isnan(found[point].peak) for place, point in points.items()}
+    return dict(brackets) | {
+        place: (brackets[place][0], middle) if lost[place] else (middle, brackets[place][1])
+        for place, middle in middles.items()
+    }
+
+
+def _point(place: Place, gain: float) -> Point:
+    case, arm, observer = place
+    return gain_point(observer, case, arm, gain)
+
+
+def same_on_grids(edge: float, place: Place) -> bool:
+    """Whether the loop stays just below an edge and runs away just above it on every grid."""
+    points = [_point(place, edge * factor) for factor in (1.0 / NEAR, NEAR)]
+    grids: list[Changes] = [{**GRID, "grid.elements": elements} for elements in GRIDS]
+    found = [[np.isnan(outcome.peak) for outcome in run_points(points, grid=grid).values()] for grid in grids]
+    return all(lost == [False, True] for lost in found)
+
+
+def runaways(found: Mapping[Place, Edge], arm: str) -> Region:
+    """The gains from which on the loop of an arm runs away, healthy and with a dead motor."""
+    places = list(product(GAIN_CASES, OBSERVERS))
+    gains = {(case, observer): found[case, arm, observer] for case, observer in places}
+    numbers = tuple(
+        Number(
+            f"edge_{observer}" if case == "none" else f"edge_{case}_{observer}",
+            gains[case, observer].gain,
+            "1",
+            f"gain from which on it runs away, {CASE_WORDS[case]}, observer {observer}",
+            Kind.EDGE,
+        )
+        for case, observer in places
+    )
+    on, off, dead_on, dead_off = (short(gains[place].gain) for place in places)
+    same = all(edge.same for edge in gains.values())
+    elements, near = ", ".join(map(str, GRIDS)), percent(NEAR - 1.0)
+    grids = f"{'the same' if same else 'NOT the same'} on {elements} elements, each within {near}"
+    return Region(
+        numbers,
+        f"What does drive it apart is a gain that is too large: {on} times the exact one, {off} times without the "
+        f"disturbance observer. A motor that dies at the start lowers the gain, so that it takes {dead_on} and "
+        f"{dead_off} times ({grids}).",
+    )
+
+
+def reversal(gain: xarray.Dataset) -> Region:
+    """Where, without a fault and with the observer, the adaptive arm is the better one: by gain at the start."""
+    peaks = gain["peak"].sel(case="none", observer="on")
+    gains = gain["gain"].values
+    exact = float(np.interp(0.0, np.log(gains), peaks.sel(arm="without").values))
+    preset = float(np.interp(np.log(0.5), np.log(gains), peaks.sel(arm="with").values))
+    start = _crossing(gains, peaks.sel(arm="with").values, exact)
+    belief = 1.0 / _crossing(gains, peaks.sel(arm="without").values, preset)
+    same = float(np.interp(0.0, np.log(gains), peaks.sel(arm="with").values)) / exact
+    numbers = (
+        Number("start_gain", start, "1", "gain at the start from which on fault control is better", Kind.CROSSING),
+        Number("belief_ratio", belief, "1", "believed over true factors from which on it is better", Kind.CROSSING),
+        Number("same_start", same, "1", "peak with over without fault control, both starting at the exact gain"),
+    )
+    bounds = [
+        *([f"the adaptation starts below {short(start)} of the exact gain"] if np.isfinite(start) else []),
+        *([f"the factors are believed less than {short(belief)} times too large"] if np.isfinite(belief) else []),
+    ]
+    words = (
+        f"It holds while {' and '.join(bounds) or 'the gain is one of the scan'}. Started at the exact gain, fault "
+        "control "
+        f"leaves {percent(same)} of the peak that known factors leave: what is compared is less two laws than two "
+        "gains, "
+        "and a larger gain leaves a smaller peak until the loop runs away."
+    )
+    return Region(numbers, words, " and ".join(bounds))
+
+
+def _crossing(gains: np.ndarray, peaks: np.ndarray, level: float) -> float:
+    """The gain at which falling peaks cross a level, along straight lines of logarithms; nan if they do not."""
+    good = np.isfinite(peaks)
+    x, y = np.log(gains[good]), np.log(peaks[good])
+    below = np.flatnonzero(y < np.log(level))
+    if not below.size or below[0] == 0:
+        return float("nan")
+    k = below[0]
+    return float(np.exp(x[k - 1] + (np.log(level) - y[k - 1]) / (y[k] - y[k - 1]) * (x[k] - x[k - 1])))
