@@ -37,7 +37,7 @@ def test_first_update_advances_no_filter() -> None:
     tension = 500.0 * (10.0 - 0.1)
     assert command.thrust == pytest.approx(-1e4 * 0.01 * 0.01 + tension * 0.01, rel=1e-14)
     outer = memory.outer[0]
-    assert numbers(outer.velocity) + numbers(outer.slope) == (0.2, 0.0, 0.01, 0.0)
+    assert numbers(outer.observers) == ((0.2, 0.0), (0.01, 0.0))
     assert decision.motors["speed_reference"].tolist() == [0.0, 0.0], "the command filters are at zero"
     assert outer.updates == 1
 
@@ -47,8 +47,8 @@ def test_second_update_advances_every_filter_once() -> None:
     _, (memory, decision, _) = updates(Cascade(umbilical.load("paper")), [SAMPLE, moved])
     eps, h = 0.005, 1e-3
     step = h / eps * np.exp(-h / eps)  # pi2 after one period of a unit step
-    assert memory.outer[0].velocity.filtered_rate == pytest.approx(0.01 * step, rel=1e-9)
-    assert memory.outer[0].slope.filtered_rate == pytest.approx(0.002 * step, rel=1e-9)
+    assert memory.outer[0].observers.velocity.filtered_rate == pytest.approx(0.01 * step, rel=1e-9)
+    assert memory.outer[0].observers.slope.filtered_rate == pytest.approx(0.002 * step, rel=1e-9)
     assert decision.outer[0].tip_velocity_estimate == pytest.approx(0.01 * step / eps, rel=1e-9)
     root, x = soft_signed_root(decision.motors[0].demand, 1e-3), 200.0 * h
     first, second = decision.motors["speed_reference"]

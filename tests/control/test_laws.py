@@ -9,6 +9,7 @@ import pytest
 
 from umbilical.control.allocation.adaptive import adapt, adaptive_demand, initial_kappa, make_adaptation
 from umbilical.control.allocation.known import known_demand
+from umbilical.control.allocation.table import KNOWN, make_allocation
 from umbilical.control.contract import MotorDecision
 from umbilical.control.nominal import NominalMotor
 from umbilical.control.outer.boundary import boundary_error, boundary_thrust
@@ -107,5 +108,5 @@ def test_motion_ratchets_the_first_entry_up() -> None:
 
 def test_known_factors_have_no_kappa() -> None:
     record = KnownFactors(method="known")
-    assert not make_adaptation(record, 2, PERIOD).enabled
+    assert make_allocation(record, 2, PERIOD).method == KNOWN
     assert initial_kappa(record, 2).tolist() == [0.0, 0.0, 0.0]

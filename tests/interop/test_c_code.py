@@ -108,10 +108,10 @@ def last_bit(text: str) -> str:
 
 
 def swapped(text: str) -> str:
-    text = text.replace("advance_high_gain(&s->velocity_observer, &memory->velocity, tip->tip_displacement)", "A")
-    text = text.replace("advance_high_gain(&s->slope_observer, &memory->slope, tip->tip_slope)", "B")
-    text = text.replace("A;", "advance_high_gain(&s->velocity_observer, &memory->velocity, tip->tip_slope);")
-    return text.replace("B;", "advance_high_gain(&s->slope_observer, &memory->slope, tip->tip_displacement);")
+    text = text.replace("advance_high_gain(&s->velocity, &memory->velocity, tip->tip_displacement)", "A")
+    text = text.replace("advance_high_gain(&s->slope, &memory->slope, tip->tip_slope)", "B")
+    text = text.replace("A;", "advance_high_gain(&s->velocity, &memory->velocity, tip->tip_slope);")
+    return text.replace("B;", "advance_high_gain(&s->slope, &memory->slope, tip->tip_displacement);")
 
 
 def one_more(text: str) -> str:

@@ -169,7 +169,7 @@ def high_gain_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
         )
 
     patch.setattr(high_gain, "make_high_gain", wrong)
-    patch.setattr("umbilical.control.cascade.make_high_gain", wrong)
+    patch.setattr("umbilical.control.observers.table.make_high_gain", wrong)
 
 
 def disturbance_observer_off_by_two(patch: pytest.MonkeyPatch) -> None:
@@ -212,12 +212,12 @@ def wrong_sign_of_the_adaptive_law(patch: pytest.MonkeyPatch) -> None:
     """The ratchet turns the other way: kappa_0 falls where (27) makes it grow."""
     right = adaptive.make_adaptation
 
-    def wrong(*arguments: Any) -> adaptive.Adaptation:
+    def wrong(*arguments: Any) -> adaptive.KappaStep:
         law = right(*arguments)
-        law.steps["kappa_gain"] *= -1.0
+        law["kappa_gain"] *= -1.0
         return law
 
-    patch.setattr("umbilical.control.cascade.make_adaptation", wrong)
+    patch.setattr("umbilical.control.allocation.table.make_adaptation", wrong)
 
 
 def _cable(**wrong: float) -> Break:

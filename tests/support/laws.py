@@ -24,21 +24,23 @@ def outer_law(outer: Outer) -> Linear:
     unit = np.eye(states + len(READINGS))
     pi, chi, phi, lasting, command = unit[:2], unit[2:4], unit[4], unit[5], unit[6]
     displacement, slope, velocity, slope_rate = unit[states:]
-    pi = _advanced(outer.velocity_observer.form, pi, displacement)
-    chi = _advanced(outer.slope_observer.form, chi, slope)
-    if not outer.ideal_rates:
-        velocity = pi[1] / outer.velocity_observer.time_constant
-        slope_rate = chi[1] / outer.slope_observer.time_constant
-    if outer.law == PD:
-        thrust = -outer.gains[0] * displacement - outer.gains[1] * velocity
+    observers, (kind, believed, pd, boundary) = outer
+    pi = _advanced(observers.velocity.form, pi, displacement)
+    chi = _advanced(observers.slope.form, chi, slope)
+    if not observers.ideal_rates:
+        velocity = pi[1] / observers.velocity.time_constant
+        slope_rate = chi[1] / observers.slope.time_constant
+    if kind == PD:
+        thrust = -pd.position_gain * displacement - pd.velocity_gain * velocity
         return _from_rows(np.vstack([pi, chi, phi, lasting, thrust]), thrust)
-    assert outer.law == BOUNDARY
-    (damping_gain, beta), mass, d = outer.gains, outer.payload_mass, outer.disturbance
-    kappa, _, rate, share = outer.station
+    assert kind == BOUNDARY
+    damping_gain, beta, _, station, d = boundary
+    mass = believed.payload_mass
+    kappa, _, rate, share = station
     lasting = lasting + share * (slope - lasting)
     error = velocity + beta * (slope - lasting) + kappa * displacement
     changing = slope_rate - rate * (slope - lasting)
-    known = tension(0.0, net_gravity(outer.gravity), outer.hanging) * slope + outer.payload_damping * velocity
+    known = tension(0.0, net_gravity(believed.gravity), believed.hanging) * slope + believed.payload_damping * velocity
     drive = d.coupling * error + known - command - d.gain * mass * velocity
     phi = d.decay * phi + (1.0 - d.decay) * drive
     estimate = (phi + d.gain * mass * velocity) * d.enabled

@@ -12,54 +12,26 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.allocation.adaptive import Adaptation, adapt, adaptive_demand, initial_kappa, make_adaptation
-from umbilical.control.allocation.known import known_demand
+from umbilical.control.allocation.adaptive import initial_kappa
+from umbilical.control.allocation.table import KNOWN, Allocation, allocate, make_allocation
 from umbilical.control.contract import Command, Decision, Measurement, Readings, make_decision, make_readings
 from umbilical.control.motor.backstepping import Backstepping, backstepping_drive
 from umbilical.control.motor.command_filter import CommandFilter, Reference, advance_filter, make_command_filter
 from umbilical.control.motor.disturbance import advance_motor_disturbance, start_motor_disturbance
 from umbilical.control.nominal import NominalMotor, make_nominal_motors
-from umbilical.control.observers.disturbance import (
-    Disturbance,
-    DisturbanceMemory,
-    advance_disturbance,
-    disturbance_estimate,
-    make_disturbance,
-    start_disturbance,
-)
-from umbilical.control.observers.high_gain import (
-    HighGain,
-    HighGainMemory,
-    advance_high_gain,
-    derivative_estimate,
-    make_high_gain,
-    start_high_gain,
-)
-from umbilical.control.outer.boundary import Station, boundary_error, boundary_thrust, make_station
-from umbilical.control.outer.pd import pd_thrust
-from umbilical.control.outer.table import LAWS, NONE, PD
+from umbilical.control.observers.table import ObserverMemory, Observers, make_observers, observe_rates, start_observers
+from umbilical.control.outer.table import NONE, LawMemory, Laws, make_laws, start_law, update_law
+from umbilical.control.rates import outer_period
 from umbilical.frames import Frame, integer, part, real
-from umbilical.relations.tension import Hanging, hanging, net_gravity, tension
-from umbilical.relations.water import in_water
 from umbilical.scenario.control import MotorLoop
 from umbilical.scenario.scenario import Scenario
 
 
 class Outer(NamedTuple):
-    """Settings of the outer law; gains are (k_p, k_d) or (k_a, beta)."""
+    """Settings of the outer loop: observers, then the law."""
 
-    law: int
-    gains: tuple[float, float]
-    ideal_rates: bool
-    payload_mass: float
-    payload_damping: float
-    gravity: float
-    hanging: Hanging
-    station: Station
-    quadratic_drag: float
-    velocity_observer: HighGain
-    slope_observer: HighGain
-    disturbance: Disturbance
+    observers: Observers
+    laws: Laws
 
 
 class Motors(NamedTuple):
@@ -67,7 +39,7 @@ class Motors(NamedTuple):
 
     driven: bool
     nominal: NominalMotor
-    adaptation: Adaptation
+    allocation: Allocation
     command_filter: CommandFilter
     backstepping: Backstepping
     observer_gain: float
@@ -86,10 +58,8 @@ class OuterMemory(Frame):
     """What the outer law and its observers remember."""
 
     updates = integer()
-    velocity = part(HighGainMemory)
-    slope = part(HighGainMemory)
-    disturbance = part(DisturbanceMemory)
-    slope_mean = real()
+    observers = part(ObserverMemory)
+    laws = part(LawMemory)
 
 
 class MotorMemory(Frame):
@@ -114,37 +84,14 @@ class CascadeState(NamedTuple):
     motors: MotorMemory
 
 
-def make_settings(scenario: Scenario) -> CascadeSettings:
-    """Settings of a scenario's built-in controller, from its nominal constants."""
-    control = scenario.control
-    outer_period = control.outer_period or control.period
-    outer, motors = _outer_settings(scenario, outer_period), _motor_settings(scenario, outer_period)
-    return CascadeSettings(outer, motors, round(outer_period / control.period))
+def make_settings(scenario: Scenario, across: bool = False) -> CascadeSettings:
+    """Settings of a scenario's built-in controller, from its nominal constants; ``across``: for the direction y."""
+    control, period = scenario.control, outer_period(scenario.control)
+    outer = Outer(make_observers(control, period), make_laws(scenario, period, across))
+    return CascadeSettings(outer, _motor_settings(scenario, period), round(period / control.period))
 
 
-def _outer_settings(scenario: Scenario, period: float) -> Outer:
-    control, nominal = scenario.control, scenario.control.nominal
-    law = LAWS[control.law.kind]
-    mass = _believed(nominal.payload_mass, scenario.payload.mass)
-    gravity = _believed(nominal.gravity, scenario.environment.gravity)
-    water, weight = in_water(None, scenario.payload, None), nominal.payload_wet_weight or scenario.payload.wet_weight
-    return Outer(
-        law.number,
-        law.gains(control.law),
-        control.law.reads_rates,
-        mass + water.body_added,
-        _believed(nominal.payload_damping, scenario.payload.damping) + water.body_linear,
-        gravity,
-        hanging(mass, 0.0, gravity, weight, added=water.body_vertical),
-        make_station(control.law, period),
-        water.body_quadratic if getattr(control.law, "drag_feedforward", None) else 0.0,
-        make_high_gain(control.velocity_observer, period),
-        make_high_gain(control.slope_observer, period),
-        make_disturbance(control.disturbance_observer, period),
-    )
-
-
-def _motor_settings(scenario: Scenario, outer_period: float) -> Motors:
+def _motor_settings(scenario: Scenario, period: float) -> Motors:
     control, nominal = scenario.control, scenario.control.nominal
     loop, count = control.motor_loop, len(nominal.motors or scenario.motors)
     fields = {name: getattr(loop, name) if loop else 1.0 for name in Backstepping._fields}
@@ -152,7 +99,7 @@ def _motor_settings(scenario: Scenario, outer_period: float) -> Motors:
     return Motors(
         loop is not None and not scenario.ideal_thruster,
         make_nominal_motors(nominal, scenario.motors),
-        make_adaptation(control.allocation, count, outer_period),
+        make_allocation(control.allocation, count, period),
         _command_filter(loop, control.period),
         Backstepping(**fields),
         gain,
@@ -164,14 +111,10 @@ def _command_filter(loop: MotorLoop | None, period: float) -> CommandFilter:
     return make_command_filter(loop.filter_frequency if loop else 1.0, loop.root_width if loop else 1.0, period)
 
 
-def _believed(nominal: float | None, truth: float) -> float:
-    return truth if nominal is None else nominal
-
-
 def with_known_factors(settings: CascadeSettings) -> CascadeSettings:
     """The same without adaptation, which needs the u_a that only the built-in boundary law computes."""
-    adaptation = settings.motors.adaptation._replace(enabled=False)
-    return settings._replace(motors=settings.motors._replace(adaptation=adaptation))
+    allocation = settings.motors.allocation._replace(method=KNOWN)
+    return settings._replace(motors=settings.motors._replace(allocation=allocation))
 
 
 def make_state(scenario: Scenario) -> CascadeState:
@@ -186,11 +129,8 @@ def start(settings: CascadeSettings, state: CascadeState, readings: Readings) ->
     """Observers at rest on the first sample, filters at zero."""
     outer, motors, tip, memory = settings.outer, settings.motors, readings.tip[0], state.outer[0]
     memory.updates = 0
-    start_high_gain(memory.velocity, tip.tip_displacement)
-    start_high_gain(memory.slope, tip.tip_slope)
-    memory.slope_mean = tip.tip_slope if outer.station.washout_rate > 0.0 else 0.0
-    velocity = tip.tip_velocity if outer.ideal_rates else 0.0
-    start_disturbance(outer.disturbance, memory.disturbance, outer.payload_mass, velocity)
+    start_observers(memory.observers, tip)
+    start_law(outer.laws, memory.laws, readings, tip.tip_velocity if outer.observers.ideal_rates else 0.0)
     for i in range(motors.nominal.size):
         scaled_current = motors.nominal[i].current_scale * readings.motors[i].motor_current
         state.motors[i].motor_disturbance_state = start_motor_disturbance(motors.observer_gain, scaled_current)
@@ -199,11 +139,11 @@ def start(settings: CascadeSettings, state: CascadeState, readings: Readings) ->
 @glue
 def update(settings: CascadeSettings, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """One update: the outer law on its own samples, the motor loops on every one."""
-    if settings.outer.law != NONE:
+    if settings.outer.laws.kind != NONE:
         if state.outer[0].updates % settings.outer_every == 0:
             update_outer(settings.outer, state, readings, decision)
             if settings.motors.driven:
-                allocate(settings.motors, state, decision)
+                share(settings.motors, state, decision)
         if settings.motors.driven:
             update_motors(settings.motors, state, readings, decision)
     state.outer[0].updates += 1
@@ -212,50 +152,15 @@ def update(settings: CascadeSettings, state: CascadeState, readings: Readings, d
 @kernel
 def update_outer(s: Outer, state: CascadeState, readings: Readings, decision: Decision) -> None:
     """Estimate and decide: from the readings at the ROV to the commanded thrust."""
-    tip, out, memory = readings.tip[0], decision.outer[0], state.outer[0]
-    advance = memory.updates > 0
-    if advance:
-        advance_high_gain(s.velocity_observer, memory.velocity, tip.tip_displacement)
-        advance_high_gain(s.slope_observer, memory.slope, tip.tip_slope)
-    velocity = derivative_estimate(s.velocity_observer, memory.velocity)
-    slope_rate = derivative_estimate(s.slope_observer, memory.slope)
-    if s.ideal_rates:
-        velocity, slope_rate = tip.tip_velocity, tip.tip_slope_rate
-    out.tip_velocity_estimate = velocity
-    out.tip_slope_rate_estimate = slope_rate
-    if s.law == PD:
-        out.thrust_command = pd_thrust(s.gains[0], s.gains[1], tip.tip_displacement, velocity)
-        return
-    if advance:
-        memory.slope_mean += s.station.washout_share * (tip.tip_slope - memory.slope_mean)
-    away, lasting = tip.tip_displacement - s.station.place, memory.slope_mean
-    error = boundary_error(s.gains[1], velocity, tip.tip_slope - lasting) + s.station.gain * away
-    pull = readings.winch[0].tip_tension
-    if pull == 0.0:
-        pull = tension(0.0, net_gravity(s.gravity, readings.winch[0].payout_acceleration), s.hanging)
-    known = pull * tip.tip_slope + s.payload_damping * velocity + s.quadratic_drag * abs(velocity) * velocity
-    if advance:
-        held = out.thrust_command
-        advance_disturbance(s.disturbance, memory.disturbance, s.payload_mass, velocity, error, known - held)
-    estimate = disturbance_estimate(s.disturbance, memory.disturbance, s.payload_mass, velocity)
-    out.boundary_error = error
-    out.disturbance_estimate = estimate
-    changing = slope_rate - s.station.washout_rate * (tip.tip_slope - lasting)
-    held_back = s.station.gain * s.payload_mass * velocity
-    thrust = boundary_thrust(s.gains[0], s.gains[1], s.payload_mass, error, changing, known, estimate)
-    out.thrust_command = thrust - held_back
+    out, memory = decision.outer[0], state.outer[0]
+    observe_rates(s.observers, memory.observers, readings.tip[0], out, memory.updates > 0)
+    update_law(s.laws, memory.laws, readings, out, memory.updates > 0)
 
 
 @glue
-def allocate(s: Motors, state: CascadeState, decision: Decision) -> None:
+def share(s: Motors, state: CascadeState, decision: Decision) -> None:
     """Demands on the motors from the commanded thrust."""
-    outer = decision.outer[0]
-    if s.adaptation.enabled:
-        if state.outer[0].updates > 0:
-            adapt(s.adaptation, state.kappa, outer.thrust_command, outer.boundary_error)
-        adaptive_demand(s.nominal, state.kappa, outer.thrust_command, decision.motors)
-    else:
-        known_demand(s.nominal, outer.thrust_command, decision.motors)
+    allocate(s.allocation, s.nominal, state.kappa, decision.outer[0], decision.motors, state.outer[0].updates > 0)
 
 
 @kernel

@@ -168,7 +168,7 @@ def run_held(
             observe(world, inputs, first, noise, j)
         if driven:
             if decided and j == periods[0]:
-                cascade.allocate(settings.motors, memory, world.decision)
+                cascade.share(settings.motors, memory, world.decision)
             cascade.update_motors(settings.motors, memory, world.readings, world.decision)
         memory.outer[0].updates += 1
         actuate(world)

@@ -143,7 +143,7 @@ def _words(scenario: Scenario, settings: CascadeSettings, hold: float | None) ->
     outer = f", outer law every {settings.outer_every} updates" if settings.outer_every > 1 else ""
     law = f"{scenario.control.law.kind} law every {period:g} s{outer}, {scenario.control.allocation.method} allocation"
     origin = "assumed; give the one of your vehicle with --hold" if hold is None else "chosen when the file was written"
-    ideal = settings.outer.ideal_rates
+    ideal = settings.outer.observers.ideal_rates
     return {
         "HEAD": head(scenario),
         "HASH": scenario.hash,

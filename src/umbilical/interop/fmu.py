@@ -122,9 +122,7 @@ def _identifier(scenario: Scenario) -> str:
 
 
 def _inputs(scenario: Scenario) -> list[FmiVariable]:
-    from umbilical.control.cascade import make_settings
-
-    ideal = make_settings(scenario).outer.ideal_rates
+    ideal = scenario.control.law.reads_rates
     tip = [name for name in TipReadings.fields if ideal or name in ("tip_displacement", "tip_slope")]
     return [
         *(FmiVariable(name, f"readings.tip.{name}", name) for name in tip),

@@ -108,7 +108,7 @@ def _refusal(tip: Tip, scenario: Scenario) -> Problem | None:
         return Problem("mode", tip.mode, "thrust", "an outer law commands a thrust", "make the environment with thrust")
     if law.kind == "none":
         return Problem("control.law.kind", law.kind, "a law", "none decides nothing", "use Nothing(env)")
-    if cascade.make_settings(scenario).outer.ideal_rates and "tip_velocity" not in seen:
+    if law.reads_rates and "tip_velocity" not in seen:
         reason, fix = "the environment has no sensor of the rates", "observer, or sensors.ideal_velocity = true"
         return Problem("control.law", "rates of a sensor", "rates of an observer", reason, fix)
     return None

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from umbilical.control import nominal
-from umbilical.control.allocation import adaptive
+from umbilical.control.allocation.table import METHODS
 from umbilical.control.motor import backstepping
 from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
@@ -65,15 +65,13 @@ CHECKS: tuple[Check, ...] = (
     outer.ideal_sensors,
     backstepping.motor_loop,
     inherited.gains_of_other_motors,
-    adaptive.adaptation,
-    adaptive.adaptation_has_its_error,
+    *(check for method in METHODS.values() for check in method),
     nominal.nominal,
     steps.grid_of_a_rope,
     steps.grid_near_the_payload,
     high_gain.high_gain_observers,
-    *(check for law in LAWS.values() for check in law.checks),
+    *(check for law in LAWS.values() for check in law),
     disturbance.disturbance_observer,
-    adaptive.leak,
     backstepping.sampled_gains,
     steps.step_for_waves,
     steps.step_for_damping,

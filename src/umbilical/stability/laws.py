@@ -10,6 +10,7 @@ from math import sqrt
 
 import numpy as np
 
+from umbilical.control.allocation.table import ADAPTIVE
 from umbilical.control.cascade import CascadeState, MotorMemory, Motors, Outer, OuterMemory, update_motors, update_outer
 from umbilical.control.contract import MotorReadings, TipReadings, make_decision, make_readings
 from umbilical.engine.linearise import Linear, Names, Point, linearise
@@ -111,7 +112,7 @@ def shares(motors: Motors, kappa: np.ndarray) -> np.ndarray:
     """Demand on each motor per commanded thrust, rad2/(N s2), kappa frozen where it adapts (23)."""
     coefficients = motors.nominal["thrust_coefficient"]
     signs = np.sign(coefficients)
-    return signs * kappa[0] if motors.adaptation.enabled else signs / np.abs(coefficients).sum()
+    return signs * kappa[0] if motors.allocation.method == ADAPTIVE else signs / np.abs(coefficients).sum()
 
 
 def _memory() -> CascadeState:

@@ -12,7 +12,6 @@ leak holds it; ``upper`` projects kappa onto a box (ours, recommended; infinite 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -36,18 +35,11 @@ class KappaStep(Frame):
     kappa_upper = real()
 
 
-class Adaptation(NamedTuple):
-    """The adaptive law; one record for each of kappa_0 ... kappa_n."""
-
-    enabled: bool
-    steps: KappaStep
-
-
-def make_adaptation(record: Allocation, motors: int, period: float) -> Adaptation:
-    """Discrete form for one period; known factors get an idle one."""
+def make_adaptation(record: Allocation, motors: int, period: float) -> KappaStep:
+    """Discrete form for one period, one record for each of kappa_0 ... kappa_n; known factors get idle ones."""
     steps = KappaStep.many(motors + 1)
     if not isinstance(record, AdaptiveAllocation):
-        return Adaptation(False, steps)
+        return steps
     rates = np.array(record.rates)
     leaking = rates * record.leak * period
     # (1 - exp(-leaking)) / leak, which tends to rates * period without a leak.
@@ -55,7 +47,7 @@ def make_adaptation(record: Allocation, motors: int, period: float) -> Adaptatio
     steps["kappa_decay"] = np.exp(-leaking)
     steps["kappa_lower"] = record.lower or -np.inf
     steps["kappa_upper"] = record.upper or np.inf
-    return Adaptation(True, steps)
+    return steps
 
 
 def initial_kappa(record: Allocation, motors: int) -> np.ndarray:
@@ -64,20 +56,27 @@ def initial_kappa(record: Allocation, motors: int) -> np.ndarray:
 
 
 @kernel
-def adapt(adaptation: Adaptation, kappa: np.ndarray, thrust: float, error: float) -> None:
+def adapt(steps: KappaStep, kappa: np.ndarray, thrust: float, error: float) -> None:
     """One period of (27)."""
     for j in range(kappa.size):
-        step, theta = adaptation.steps[j], thrust if j == 0 else 1.0
+        step, theta = steps[j], thrust if j == 0 else 1.0
         wanted = step.kappa_decay * kappa[j] - step.kappa_gain * theta * error
         kappa[j] = min(max(wanted, step.kappa_lower), step.kappa_upper)
 
 
 @kernel
-def adaptive_demand(nominal: NominalMotor, kappa: np.ndarray, thrust: float, decision: MotorDecision) -> None:
-    """Decide the demands (23); only the signs of the thrust coefficients are used."""
+def common_demand(kappa: np.ndarray, thrust: float) -> float:
+    """kappa^T theta."""
     common = kappa[0] * thrust
     for j in range(1, kappa.size):
         common += kappa[j]
+    return common
+
+
+@kernel
+def adaptive_demand(nominal: NominalMotor, kappa: np.ndarray, thrust: float, decision: MotorDecision) -> None:
+    """Decide the demands (23); only the signs of the thrust coefficients are used."""
+    common = common_demand(kappa, thrust)
     for i in range(nominal.size):
         decision[i].demand = np.sign(nominal[i].thrust_coefficient) * common
 

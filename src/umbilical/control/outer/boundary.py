@@ -18,20 +18,26 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import expm1
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
+from umbilical.control.contract import OuterDecision, Readings, TipReadings
+from umbilical.control.observers.disturbance import (
+    Disturbance,
+    DisturbanceMemory,
+    advance_disturbance,
+    disturbance_estimate,
+    make_disturbance,
+    start_disturbance,
+)
+from umbilical.control.outer.law import Believed, pull_of_the_cable
 from umbilical.control.rates import outer_period, within_a_period
 from umbilical.errors import Problem
+from umbilical.frames import Frame, part, real
 from umbilical.relations.water import payload_inertia
 from umbilical.scenario.control import BoundaryLaw, Control
 from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Payload
-
-
-def gains(law: BoundaryLaw) -> tuple[float, float]:
-    """k_a, N s/m, and beta, m/s."""
-    return law.damping_gain, law.slope_gain
 
 
 class Station(NamedTuple):
@@ -43,11 +49,64 @@ class Station(NamedTuple):
     washout_share: float
 
 
-def make_station(law: Any, period: float) -> Station:
-    """The option of a boundary law, for one period of the outer loop."""
-    rate = 1.0 / law.washout_time if getattr(law, "washout_time", None) else 0.0
-    gain, place = getattr(law, "station_gain", None) or 0.0, getattr(law, "station", None) or 0.0
-    return Station(gain, place, rate, -expm1(-rate * period))
+class Boundary(NamedTuple):
+    """k_a, N s/m, beta, m/s, quadratic drag that is met before it is observed, N s2/m2; station and observer of D."""
+
+    damping_gain: float
+    slope_gain: float
+    met_drag: float
+    station: Station
+    disturbance: Disturbance
+
+
+class BoundaryMemory(Frame):
+    """What the law remembers."""
+
+    disturbance = part(DisturbanceMemory)
+    slope_mean = real()
+
+
+def make_boundary(control: Control, period: float, believed: Believed, across: bool = False) -> Boundary:
+    """Constants for one period of the outer loop; idle without the law. ``across``: the station is below the sheave."""
+    law, observer = control.law, make_disturbance(control.disturbance_observer, period)
+    if not isinstance(law, BoundaryLaw):
+        return Boundary(0.0, 0.0, 0.0, Station(0.0, 0.0, 0.0, 0.0), observer)
+    rate, place = 1.0 / law.washout_time if law.washout_time else 0.0, 0.0 if across else law.station or 0.0
+    station = Station(law.station_gain or 0.0, place, rate, -expm1(-rate * period))
+    drag = believed.quadratic_drag if law.drag_feedforward else 0.0
+    return Boundary(law.damping_gain, law.slope_gain, drag, station, observer)
+
+
+@glue
+def start_boundary(c: Boundary, believed: Believed, memory: BoundaryMemory, tip: TipReadings, velocity: float) -> None:
+    """D^ = 0 at a velocity that is known already; the slope lasts where it is washed out."""
+    memory.slope_mean = tip.tip_slope if c.station.washout_rate > 0.0 else 0.0
+    start_disturbance(c.disturbance, memory.disturbance, believed.payload_mass, velocity)
+
+
+@glue
+def update_boundary(
+    c: Boundary, believed: Believed, memory: BoundaryMemory, readings: Readings, out: OuterDecision, advance: bool
+) -> None:
+    """Decide the thrust; ``out`` holds the estimates of the rates, and the thrust that was commanded last."""
+    tip, station, mass = readings.tip[0], c.station, believed.payload_mass
+    velocity, slope_rate = out.tip_velocity_estimate, out.tip_slope_rate_estimate
+    if advance:
+        memory.slope_mean += station.washout_share * (tip.tip_slope - memory.slope_mean)
+    away, lasting = tip.tip_displacement - station.place, memory.slope_mean
+    error = boundary_error(c.slope_gain, velocity, tip.tip_slope - lasting) + station.gain * away
+    pull = pull_of_the_cable(believed, readings.winch[0])
+    known = pull * tip.tip_slope + believed.payload_damping * velocity + c.met_drag * abs(velocity) * velocity
+    if advance:
+        held = out.thrust_command
+        advance_disturbance(c.disturbance, memory.disturbance, mass, velocity, error, known - held)
+    estimate = disturbance_estimate(c.disturbance, memory.disturbance, mass, velocity)
+    out.boundary_error = error
+    out.disturbance_estimate = estimate
+    changing = slope_rate - station.washout_rate * (tip.tip_slope - lasting)
+    held_back = station.gain * mass * velocity
+    thrust = boundary_thrust(c.damping_gain, c.slope_gain, mass, error, changing, known, estimate)
+    out.thrust_command = thrust - held_back
 
 
 @kernel

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
-from umbilical.compile import kernel
+from umbilical.compile import glue, kernel
+from umbilical.control.contract import OuterDecision, TipReadings
 from umbilical.control.rates import outer_period, within_a_period
 from umbilical.relations.water import payload_inertia
 from umbilical.scenario.control import Control, ProportionalDerivative
@@ -12,9 +14,25 @@ from umbilical.scenario.findings import Finding
 from umbilical.scenario.hardware import Payload
 
 
-def gains(law: ProportionalDerivative) -> tuple[float, float]:
-    """k_p, N/m, and k_d, N s/m."""
-    return law.position_gain, law.velocity_gain
+class PDGains(NamedTuple):
+    """k_p, N/m, and k_d, N s/m; zero without the law."""
+
+    position_gain: float
+    velocity_gain: float
+
+
+def make_pd(control: Control) -> PDGains:
+    """The gains of a scenario's law."""
+    law = control.law
+    return (
+        PDGains(law.position_gain, law.velocity_gain) if isinstance(law, ProportionalDerivative) else PDGains(0.0, 0.0)
+    )
+
+
+@glue
+def update_pd(c: PDGains, tip: TipReadings, out: OuterDecision) -> None:
+    """Decide the thrust; ``out`` holds the estimate of the velocity."""
+    out.thrust_command = pd_thrust(c.position_gain, c.velocity_gain, tip.tip_displacement, out.tip_velocity_estimate)
 
 
 @kernel

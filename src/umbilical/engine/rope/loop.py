@@ -6,9 +6,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.compile import entry_kernel, glue, kernel
-from umbilical.control.allocation.adaptive import adapt
-from umbilical.control.cascade import NONE, CascadeSettings, CascadeState, start, update_motors, update_outer
+from umbilical.compile import entry_kernel, glue
+from umbilical.control.allocation.table import Directions, allocate_both
+from umbilical.control.cascade import CascadeSettings, CascadeState, start, update_motors, update_outer
+from umbilical.control.outer.table import NONE
 from umbilical.engine.loop import FINISHED
 from umbilical.engine.rope.recording import RopeLog, RopeTally, measure_rope, store_rope
 from umbilical.engine.rope.world import RopeWorld, advance, enter_step, sense
@@ -33,51 +34,36 @@ class RopeControl(NamedTuple):
         settings: of the direction x, and of what both share.
         settings_across: of the outer law in the direction y.
         along, across: memory.
-        shares: demand of each motor per newton of thrust in x and y, shape (motors, 2).
-        directions: unit vectors of the motors' thrusts, shape (motors, 2).
+        directions: where the motors push.
     """
 
     settings: CascadeSettings
     settings_across: CascadeSettings
     along: CascadeState
     across: CascadeState
-    shares: np.ndarray
-    directions: np.ndarray
+    directions: Directions
 
 
-@kernel
-def allocate(control: RopeControl, world: RopeWorld) -> None:
-    """Demands on the motors from the commanded thrusts of both directions; the adaptive law per direction."""
-    motors, out = control.settings.motors, world.along.decision.motors
-    x, y = world.along.decision.outer[0], world.across.decision.outer[0]
-    if not motors.adaptation.enabled:
-        for i in range(out.size):
-            sign = np.sign(motors.nominal[i].thrust_coefficient)
-            out[i].demand = sign * (control.shares[i, 0] * x.thrust_command + control.shares[i, 1] * y.thrust_command)
-        return
-    kappa, other = control.along.kappa, control.across.kappa
-    if control.along.outer[0].updates > 0:
-        adapt(motors.adaptation, kappa, x.thrust_command, x.boundary_error)
-        adapt(motors.adaptation, other, y.thrust_command, y.boundary_error)
-    along, across = kappa[0] * x.thrust_command, other[0] * y.thrust_command
-    for j in range(1, kappa.size):
-        along += kappa[j]
-        across += other[j]
-    for i in range(out.size):
-        sign = np.sign(motors.nominal[i].thrust_coefficient)
-        out[i].demand = sign * (control.directions[i, 0] * along + control.directions[i, 1] * across)
+@glue
+def share(control: RopeControl, world: RopeWorld) -> None:
+    """Demands on the motors from the commanded thrusts of both directions."""
+    motors, along, across = control.settings.motors, world.along.decision, world.across.decision
+    allocate_both(
+        motors.allocation, motors.nominal, control.directions, (control.along.kappa, control.across.kappa),
+        along.outer[0], across.outer[0], along.motors, control.along.outer[0].updates > 0,
+    )  # fmt: skip
 
 
 @glue
 def decide(control: RopeControl, world: RopeWorld) -> None:
     """One update of the built-in controller: the outer law per direction, then the motors."""
     settings, along, across = control.settings, world.along, world.across
-    if settings.outer.law != NONE:
+    if settings.outer.laws.kind != NONE:
         if control.along.outer[0].updates % settings.outer_every == 0:
             update_outer(settings.outer, control.along, along.readings, along.decision)
             update_outer(control.settings_across.outer, control.across, across.readings, across.decision)
             if settings.motors.driven:
-                allocate(control, world)
+                share(control, world)
         if settings.motors.driven:
             update_motors(settings.motors, control.along, along.readings, along.decision)
     control.along.outer[0].updates += 1
@@ -145,7 +131,7 @@ def run_rope_steps(
         else:
             if driven:
                 if decided and j == periods[0]:
-                    allocate(control, world)
+                    share(control, world)
                 update_motors(control.settings.motors, control.along, world.along.readings, world.along.decision)
             control.along.outer[0].updates += 1
         actuate(world)

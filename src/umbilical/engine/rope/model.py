@@ -10,6 +10,7 @@ import numpy as np
 
 from umbilical.compile import announce
 from umbilical.control import cascade
+from umbilical.control.allocation.table import Directions
 from umbilical.control.cascade import CascadeSettings
 from umbilical.control.contract import (
     Across,
@@ -42,7 +43,6 @@ from umbilical.plant.rope.energy import energy
 from umbilical.plant.rope.outside import RopeSampler, still_water
 from umbilical.plant.rope.records import POWERS, STAGES, Rope, RopeOutside
 from umbilical.relations.instants import count_up
-from umbilical.relations.water import in_water
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
 
@@ -97,8 +97,8 @@ class RopeModel:
         settings = cascade.make_settings(scenario)
         along, across = cascade.make_state(scenario), cascade.make_state(scenario)
         return RopeControl(
-            settings, across_settings(settings, scenario), along, across,
-            shares_of(settings, directions(scenario)), directions(scenario),
+            settings, cascade.make_settings(scenario, across=True), along, across,
+            Directions(shares_of(settings, directions(scenario)), directions(scenario)),
         )  # fmt: skip
 
     def _make_record(self) -> RopeRecord:
@@ -255,17 +255,6 @@ def directions(scenario: Scenario) -> np.ndarray:
     """Unit vectors of the motors' thrusts, shape (motors, 2); along x where nothing is said."""
     angles = section(scenario).thrust_directions or (0.0,) * len(scenario.motors)
     return np.array([[np.cos(angle), np.sin(angle)] for angle in angles]).reshape(-1, 2)
-
-
-def across_settings(settings: CascadeSettings, scenario: Scenario) -> CascadeSettings:
-    """For the direction y: the added mass and drag there, and the station below the sheave."""
-    outer, water = settings.outer, in_water(None, scenario.payload, None)
-    across = outer._replace(
-        payload_mass=outer.payload_mass + water.body_across - water.body_added,
-        quadratic_drag=water.body_quadratic_across if outer.quadratic_drag else 0.0,
-        station=outer.station._replace(place=0.0),
-    )
-    return settings._replace(outer=across)
 
 
 def shares_of(settings: CascadeSettings, towards: np.ndarray) -> np.ndarray:

@@ -24,6 +24,7 @@
 #endif
 
 enum { NONE, PD, BOUNDARY };
+enum { KNOWN, ADAPTIVE };
 
 @SETTINGS@
 
@@ -101,11 +102,45 @@ static double disturbance_estimate(
     return (observer->enabled != 0) ? (memory->disturbance_state + ((observer->gain * mass) * velocity)) : 0.0;
 }
 
+/* observers/table.py */
+
+static void observe_rates(
+    const umb_observers *s, umb_observer_memory *memory, const umb_tip_readings *tip, umb_outer_decision *out,
+    int advance)
+{
+    if (advance != 0) {
+        advance_high_gain(&s->velocity, &memory->velocity, tip->tip_displacement);
+        advance_high_gain(&s->slope, &memory->slope, tip->tip_slope);
+    }
+    if (s->ideal_rates != 0) {
+        out->tip_velocity_estimate = tip->tip_velocity;
+        out->tip_slope_rate_estimate = tip->tip_slope_rate;
+    } else {
+        out->tip_velocity_estimate = derivative_estimate(&s->velocity, &memory->velocity);
+        out->tip_slope_rate_estimate = derivative_estimate(&s->slope, &memory->slope);
+    }
+}
+
+/* outer/law.py */
+
+static double pull_of_the_cable(const umb_believed *believed, const umb_winch_readings *winch)
+{
+    return (winch->tip_tension != 0.0)
+        ? winch->tip_tension
+        : tension(0.0, believed->gravity - winch->payout_acceleration, &believed->hanging);
+}
+
 /* outer/pd.py, (66) */
 
 static double pd_thrust(double position_gain, double velocity_gain, double displacement, double velocity)
 {
     return (-position_gain * displacement) - (velocity_gain * velocity);
+}
+
+static void update_pd(const umb_pdgains *c, const umb_tip_readings *tip, umb_outer_decision *out)
+{
+    out->thrust_command =
+        pd_thrust(c->position_gain, c->velocity_gain, tip->tip_displacement, out->tip_velocity_estimate);
 }
 
 /* outer/boundary.py, (22) */
@@ -116,9 +151,53 @@ static double boundary_error(double slope_gain, double velocity, double slope)
 }
 
 static double boundary_thrust(
-    const double gains[2], double mass, double error, double slope_rate, double known_force, double disturbance)
+    double damping_gain, double slope_gain, double mass, double error, double slope_rate, double known_force,
+    double disturbance)
 {
-    return (((-gains[0] * error) - ((gains[1] * mass) * slope_rate)) + known_force) - disturbance;
+    return (((-damping_gain * error) - ((slope_gain * mass) * slope_rate)) + known_force) - disturbance;
+}
+
+static void start_boundary(
+    const umb_boundary *c, const umb_believed *believed, umb_boundary_memory *memory, const umb_tip_readings *tip,
+    double velocity)
+{
+    memory->slope_mean = (c->station.washout_rate > 0.0) ? tip->tip_slope : 0.0;
+    start_disturbance(&c->disturbance, &memory->disturbance, believed->payload_mass, velocity);
+}
+
+static void update_boundary(
+    const umb_boundary *c, const umb_believed *believed, umb_boundary_memory *memory, const umb_readings *readings,
+    umb_outer_decision *out, int advance)
+{
+    const umb_tip_readings *tip = &readings->tip;
+    const umb_station *station = &c->station;
+    const double mass = believed->payload_mass;
+    const double velocity = out->tip_velocity_estimate;
+    const double away = tip->tip_displacement - station->place;
+    const double pull = pull_of_the_cable(believed, &readings->winch);
+    double lasting;
+    double error;
+    double known;
+    double changing;
+    double thrust;
+    double estimate;
+    if (advance != 0) {
+        memory->slope_mean += station->washout_share * (tip->tip_slope - memory->slope_mean);
+    }
+    lasting = memory->slope_mean;
+    error = boundary_error(c->slope_gain, velocity, tip->tip_slope - lasting) + (station->gain * away);
+    known = ((pull * tip->tip_slope) + (believed->payload_damping * velocity))
+        + ((c->met_drag * fabs(velocity)) * velocity);
+    if (advance != 0) {
+        advance_disturbance(
+            &c->disturbance, &memory->disturbance, mass, velocity, error, known - out->thrust_command);
+    }
+    estimate = disturbance_estimate(&c->disturbance, &memory->disturbance, mass, velocity);
+    out->boundary_error = error;
+    out->disturbance_estimate = estimate;
+    changing = out->tip_slope_rate_estimate - (station->washout_rate * (tip->tip_slope - lasting));
+    thrust = boundary_thrust(c->damping_gain, c->slope_gain, mass, error, changing, known, estimate);
+    out->thrust_command = thrust - ((station->gain * mass) * velocity);
 }
 
 /* allocation/known.py */
@@ -137,11 +216,11 @@ static void known_demand(const umb_motors *s, double thrust, umb_motor_decision 
 
 /* allocation/adaptive.py, (23) and (27) */
 
-static void adapt(const umb_adaptation *adaptation, double *kappa, double thrust, double error)
+static void adapt(const umb_kappa_step *steps, double *kappa, double thrust, double error)
 {
     int j;
     for (j = 0; j <= UMB_MOTORS; j++) {
-        const umb_kappa_step *step = &adaptation->steps[j];
+        const umb_kappa_step *step = &steps[j];
         const double theta = (j == 0) ? thrust : 1.0;
         const double wanted = (step->kappa_decay * kappa[j]) - ((step->kappa_gain * theta) * error);
         kappa[j] = clipped(wanted, step->kappa_lower, step->kappa_upper);
@@ -231,12 +310,11 @@ static void start_observers(umb_state *state, const umb_readings *readings)
     const umb_outer *s = &SETTINGS.outer;
     const umb_motors *m = &SETTINGS.motors;
     int i;
-    start_high_gain(&state->outer.velocity, readings->tip.tip_displacement);
-    start_high_gain(&state->outer.slope, readings->tip.tip_slope);
-    state->outer.slope_mean = (s->station.washout_rate > 0.0) ? readings->tip.tip_slope : 0.0;
-    start_disturbance(
-        &s->disturbance, &state->outer.disturbance, s->payload_mass,
-        (s->ideal_rates != 0) ? readings->tip.tip_velocity : 0.0);
+    start_high_gain(&state->outer.observers.velocity, readings->tip.tip_displacement);
+    start_high_gain(&state->outer.observers.slope, readings->tip.tip_slope);
+    start_boundary(
+        &s->laws.boundary, &s->laws.believed, &state->outer.laws.boundary, &readings->tip,
+        (s->observers.ideal_rates != 0) ? readings->tip.tip_velocity : 0.0);
     for (i = 0; i < UMB_MOTORS; i++) {
         const double scaled_current = m->nominal[i].current_scale * readings->motors[i].motor_current;
         state->motors[i].motor_disturbance_state = start_motor_disturbance(m->observer_gain, scaled_current);
@@ -246,57 +324,14 @@ static void start_observers(umb_state *state, const umb_readings *readings)
 static void update_outer(umb_state *state, const umb_readings *readings)
 {
     const umb_outer *s = &SETTINGS.outer;
-    const umb_tip_readings *tip = &readings->tip;
     umb_outer_memory *memory = &state->outer;
     umb_outer_decision *out = &state->decision.outer;
     const int advance = (memory->updates > 0) ? 1 : 0;
-    double velocity;
-    double slope_rate;
-
-    if (advance != 0) {
-        advance_high_gain(&s->velocity_observer, &memory->velocity, tip->tip_displacement);
-        advance_high_gain(&s->slope_observer, &memory->slope, tip->tip_slope);
-    }
-    velocity = derivative_estimate(&s->velocity_observer, &memory->velocity);
-    slope_rate = derivative_estimate(&s->slope_observer, &memory->slope);
-    if (s->ideal_rates != 0) {
-        velocity = tip->tip_velocity;
-        slope_rate = tip->tip_slope_rate;
-    }
-    out->tip_velocity_estimate = velocity;
-    out->tip_slope_rate_estimate = slope_rate;
-    if (s->law == PD) {
-        out->thrust_command = pd_thrust(s->gains[0], s->gains[1], tip->tip_displacement, velocity);
-    } else {
-        const umb_station *station = &s->station;
-        const double away = tip->tip_displacement - station->place;
-        const double measured = readings->winch.tip_tension;
-        const double pull = (measured != 0.0)
-            ? measured
-            : tension(0.0, s->gravity - readings->winch.payout_acceleration, &s->hanging);
-        double lasting;
-        double error;
-        double known;
-        double changing;
-        double thrust;
-        double estimate;
-        if (advance != 0) {
-            memory->slope_mean += station->washout_share * (tip->tip_slope - memory->slope_mean);
-        }
-        lasting = memory->slope_mean;
-        error = boundary_error(s->gains[1], velocity, tip->tip_slope - lasting) + (station->gain * away);
-        known = ((pull * tip->tip_slope) + (s->payload_damping * velocity))
-            + ((s->quadratic_drag * fabs(velocity)) * velocity);
-        if (advance != 0) {
-            advance_disturbance(
-                &s->disturbance, &memory->disturbance, s->payload_mass, velocity, error, known - out->thrust_command);
-        }
-        estimate = disturbance_estimate(&s->disturbance, &memory->disturbance, s->payload_mass, velocity);
-        out->boundary_error = error;
-        out->disturbance_estimate = estimate;
-        changing = slope_rate - (station->washout_rate * (tip->tip_slope - lasting));
-        thrust = boundary_thrust(s->gains, s->payload_mass, error, changing, known, estimate);
-        out->thrust_command = thrust - ((station->gain * s->payload_mass) * velocity);
+    observe_rates(&s->observers, &memory->observers, &readings->tip, out, advance);
+    if (s->laws.kind == PD) {
+        update_pd(&s->laws.pd, &readings->tip, out);
+    } else if (s->laws.kind == BOUNDARY) {
+        update_boundary(&s->laws.boundary, &s->laws.believed, &memory->laws.boundary, readings, out, advance);
     }
 }
 
@@ -304,9 +339,9 @@ static void allocate(umb_state *state)
 {
     const umb_motors *s = &SETTINGS.motors;
     const umb_outer_decision *outer = &state->decision.outer;
-    if (s->adaptation.enabled != 0) {
+    if (s->allocation.method == ADAPTIVE) {
         if (state->outer.updates > 0) {
-            adapt(&s->adaptation, state->kappa, outer->thrust_command, outer->boundary_error);
+            adapt(s->allocation.adaptation, state->kappa, outer->thrust_command, outer->boundary_error);
         }
         adaptive_demand(s, state->kappa, outer->thrust_command, state->decision.motors);
     } else {
@@ -363,7 +398,7 @@ static int usable(const umb_readings *readings)
     int good = (readings->valid != 0) && isfinite(tip->tip_displacement) && isfinite(tip->tip_slope)
         && isfinite(readings->winch.payout_acceleration);
     int i;
-    if (SETTINGS.outer.ideal_rates != 0) {
+    if (SETTINGS.outer.observers.ideal_rates != 0) {
         good = good && isfinite(tip->tip_velocity) && isfinite(tip->tip_slope_rate);
     }
     for (i = 0; i < UMB_MOTORS; i++) {
