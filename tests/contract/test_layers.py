@@ -43,6 +43,7 @@ def test_the_contracts_hold():
         ("errors.py", "import umbilical.quantities"),
         ("run.py", "import numba"),
         ("run.py", "import matplotlib.pyplot"),
+        ("papers/rao2022/claims.py", "import umbilical.engine.loop"),
     ],
 )
 def test_an_import_that_points_upward_or_outside_is_noticed(tmp_path, module, line):

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator
 from hashlib import sha256
 
-from umbilical.library import load
+from umbilical import load
 from umbilical.papers.rao2022.errata import errata
 from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umbilical import Run, Status
 from umbilical.papers.rao2022.experiments import FAR, GRIDS, OBSERVERS
 from umbilical.papers.rao2022.ledger import (
     UNMAPPED,
@@ -23,7 +24,6 @@ from umbilical.papers.rao2022.ledger import (
 from umbilical.papers.rao2022.map_runs import EXACT
 from umbilical.papers.rao2022.maps import BOXED, RIM
 from umbilical.papers.rao2022.regions import better, diverged, row, runaways, without_repeats
-from umbilical.run import Run, Status
 
 if TYPE_CHECKING:
     import xarray

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import ARMS, CASES, FAULTS, OBSERVERS, Runs, cell
 from umbilical.papers.rao2022.ledger import (
     FOLLOWS,
@@ -20,7 +21,6 @@ from umbilical.papers.rao2022.ledger import (
     short,
 )
 from umbilical.papers.rao2022.regions import diverged, reversal, runaways, without_repeats
-from umbilical.run import Run
 
 WORKS = 0.01
 """Share of the uncontrolled peak below which we say that a loop works."""

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from umbilical import Run
 from umbilical.papers.rao2022.differentiation import EPS, RIVALS, Errors, crossing, errors, observer, rival
 from umbilical.papers.rao2022.ledger import Evidence, Finding, Kind, Number, decide, percent, short
-from umbilical.run import Run
 from umbilical.scenario.control import HighGainObserver
 
 SAMPLED = "proposed, no jump, sampled"

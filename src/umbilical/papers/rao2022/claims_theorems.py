@@ -7,6 +7,7 @@ from itertools import product
 
 import numpy as np
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import ARMS, CASES, cell
 from umbilical.papers.rao2022.ledger import (
     Evidence,
@@ -29,7 +30,6 @@ from umbilical.papers.rao2022.motor_error import (
 )
 from umbilical.papers.rao2022.regions import runaways
 from umbilical.plant import signals
-from umbilical.run import Run
 from umbilical.scenario.control import MotorLoop
 
 HEALTHY = cell("none", "without")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import PLACES, Runs, cell
 from umbilical.papers.rao2022.ledger import (
     FOLLOWS,
@@ -17,7 +18,6 @@ from umbilical.papers.rao2022.ledger import (
     short,
     window_peak,
 )
-from umbilical.run import Run
 
 if TYPE_CHECKING:
     import xarray

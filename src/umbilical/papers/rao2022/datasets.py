@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import ARMS, CASES, Runs, cell
 from umbilical.papers.rao2022.lyapunov import lyapunov
 from umbilical.plots.cable import PLACES
 from umbilical.plots.figure import at_sigma
-from umbilical.run import Run
 
 if TYPE_CHECKING:
     import xarray

@@ -10,9 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from umbilical.library import load
-from umbilical.run import Run
-from umbilical.scenario import Scenario
+from umbilical import Run, Scenario, load
 
 FAULTS = ("dead", "stuck", "partial")
 CASES = ("none", *FAULTS)

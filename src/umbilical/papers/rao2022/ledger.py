@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from umbilical import Run, Status
 from umbilical.papers.rao2022.experiments import Runs
 from umbilical.papers.rao2022.proofs import Proofs
-from umbilical.run import Run, Status
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

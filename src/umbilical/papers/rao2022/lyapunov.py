@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from umbilical import Run
 from umbilical.certificate.lyapunov import boundary_function, cable_function
 from umbilical.certificate.records import Weights
 from umbilical.relations.tension import hanging_of, net_gravity, tension
-from umbilical.run import Run
 
 MARGIN = 2.0
 """By how much the constants keep clear of the conditions the proof sets them."""

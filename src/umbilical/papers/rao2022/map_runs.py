@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
+from umbilical import Status, load
 from umbilical.engine.simulate import measure
-from umbilical.library import load
 from umbilical.papers.rao2022.experiments import BELIEVED, OBSERVER, START, preset
 from umbilical.papers.rao2022.progress import Progress
-from umbilical.run import Status
 from umbilical.studies.engines import in_order
 
 GRID: dict[str, Any] = {"grid.elements": 8}

@@ -7,10 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.certificate import certify, largest_bounds
+from umbilical import Scenario, certify
+from umbilical.certificate import largest_bounds
 from umbilical.certificate.advice import best_rate
 from umbilical.certificate.setting import loop_of, sampled, slab_edges
-from umbilical.scenario import Scenario
 from umbilical.stability.impedance import hanging_cable
 from umbilical.stability.judgement import judge, usual_lengths, usual_thrust
 from umbilical.stability.nyquist import stability, sweep

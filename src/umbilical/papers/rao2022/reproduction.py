@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-from umbilical import files
-from umbilical.engine.simulate import simulate
+from umbilical import files, simulate
 from umbilical.formats import to_netcdf
 from umbilical.papers.rao2022.claims import judge
 from umbilical.papers.rao2022.drawing.style import RESOLUTION
