@@ -40,7 +40,7 @@ CHECKS: tuple[Check, ...] = (
     water.current_profile,
     water.heave_is_smooth,
     motion.length,
-    motion.tension,
+    motion.tension_above_zero,
     motion.wave_speed,
     statics.static_slope,
     motion.vessel_is_continuous,
@@ -83,7 +83,7 @@ CHECKS: tuple[Check, ...] = (
 )
 
 OF_THE_STRING = (
-    motion.tension,
+    motion.tension_above_zero,
     motion.wave_speed,
     statics.static_slope,
     stretch.bears_what_hangs,

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from umbilical.errors import FileError, Problem, ScenarioError
 from umbilical.scenario.base import fingerprint
 from umbilical.scenario.fields import TAGS, place_of
-from umbilical.scenario.problems import problems_of, shortened, shown
+from umbilical.scenario.problems import abridged, problems_of, shown
 from umbilical.scenario.scenario import Scenario
 
 Data = dict[str, Any]
@@ -278,7 +278,7 @@ def _impossible(value: Any, level: int = 0) -> str:
 
 
 def _refused(key: str, value: Any, reason: str) -> Problem:
-    return Problem(shortened(key), shown(value), "what a scenario or study has", reason, "see `umbilical schema`")
+    return Problem(abridged(key), shown(value), "what a scenario or study has", reason, "see `umbilical schema`")
 
 
 def _thaw(value: Any) -> Any:
@@ -304,7 +304,7 @@ def _nowhere(data: Data, key: str, value: Any) -> Problem:
     found = _find(data, parent)
     if isinstance(found, list):
         bound = f"places 1 to {len(found)} of {parent}" if found else f"no place: {parent} is empty"
-        return Problem(shortened(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
+        return Problem(abridged(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
     return Problem(
-        shortened(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
+        abridged(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
     )

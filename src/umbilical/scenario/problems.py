@@ -70,18 +70,18 @@ def shown(value: Any, field: FieldInfo | None = None) -> str:
     if isinstance(value, int | float):
         return with_unit(_digits(value), field)
     if isinstance(value, str):
-        return f'"{shortened(value)}" (text)'
+        return f'"{abridged(value)}" (text)'
     if isinstance(value, Mapping):
         return "a table"
     if isinstance(value, list | tuple):
         return f"a list of {len(value)}"
-    return f"{shortened(str(value))} ({type(value).__name__})"
+    return f"{abridged(str(value))} ({type(value).__name__})"
 
 
-def shortened(text: str) -> str:
+def abridged(text: str) -> str:
     """A text of somebody else's as it stands in a message: the beginning of a long one.
 
-    >>> shortened("a" * 1000)[-22:]
+    >>> abridged("a" * 1000)[-22:]
     'a... (1000 characters)'
     """
     return text if len(text) <= _LONG else f"{text[: _LONG // 2]}... ({len(text)} characters)"
@@ -102,7 +102,7 @@ def _consequence(complaint: Mapping[str, Any]) -> bool:
 def _problem(complaint: Mapping[str, Any], record: type[Record]) -> Problem:
     place = locate(record, complaint["loc"])
     build = _SPECIAL.get(complaint["type"], _plain)
-    return build(shortened(place.key), place.field, complaint, record)
+    return build(abridged(place.key), place.field, complaint, record)
 
 
 def _plain(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:

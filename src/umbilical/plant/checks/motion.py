@@ -121,7 +121,7 @@ def length(winch: Winch, duration: float) -> Iterator[Finding]:
             )
 
 
-def tension(
+def tension_above_zero(
     winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload
 ) -> Iterator[Finding]:
     """The tension stays above 0 all along the cable: the winch never outruns the fall of what hangs on it."""
@@ -166,7 +166,7 @@ def _heave_key(environment: Environment) -> str:
 def _stays_taut(winch: Winch, duration: float, environment: Environment, cable: Cable, payload: Payload) -> bool:
     """Whether the winch alone, without the heave, keeps the cable taut."""
     calm = environment.model_copy(update={"vessel_heave": None, "sea": None})
-    return not any(tension(winch, duration, calm, cable, payload))
+    return not any(tension_above_zero(winch, duration, calm, cable, payload))
 
 
 def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Hanging:
