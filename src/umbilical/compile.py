@@ -14,7 +14,7 @@ from collections.abc import Callable
 from functools import cache, cached_property, update_wrapper
 from multiprocessing import parent_process
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import llvmlite
@@ -79,29 +79,28 @@ def announce(loop: str = "run_dry_steps") -> None:
     The message is a warning of the logger ``umbilical``, which Python writes to stderr;
     ``logging.getLogger("umbilical").setLevel("ERROR")`` switches it off.
     """
-    if not config.DISABLE_JIT and not is_warm(loop) and parent_process() is None:
-        _say_once()
+    if not config.DISABLE_JIT and not is_warm(loop) and parent_process() is None and not _said:
+        _said.append(loop)
+        logging.getLogger("umbilical").warning(
+            "compiling the kernels once, about %.0f s, longer on a busy machine; later runs load them from disk",
+            expected_time(loop),
+        )
 
 
-@cache
-def _say_once() -> None:
-    """Without arguments, so that whoever asks first, for whichever loop, has asked for all."""
-    logging.getLogger("umbilical").warning(
-        "compiling the kernels once, about %.0f s, longer on a busy machine; later runs load them from disk",
-        expected_time(),
-    )
+_said: list[str] = []
+"""The loop that was announced, for all."""
 
 
-def expected_time() -> float:
+def expected_time(loop: str) -> float:
     """How long the kernels of a run will take to compile, s: a short piece of Python, times what they took of it."""
-    begun = perf_counter()
+    begun = process_time()
     sorted(str(i) for i in range(_SHORT_PIECE))
-    return _KERNELS_TO_SHORT_PIECE * (perf_counter() - begun)
+    return _LOOP_TO_SHORT_PIECE[loop] * (process_time() - begun)
 
 
 _SHORT_PIECE = 60_000
-_KERNELS_TO_SHORT_PIECE = 800.0
-"""Processor time of the one over that of the other; 760 to 900 were measured, half as much again in water."""
+_LOOP_TO_SHORT_PIECE = {"run_dry_steps": 800.0, "run_steps": 1200.0, "run_held": 1200.0, "run_rope_steps": 1500.0}
+"""Processor time of the one over that of the other, in a process that has compiled nothing; measured within a sixth."""
 
 
 class _Whole(JITCodeLibrary):

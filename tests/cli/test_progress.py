@@ -42,8 +42,8 @@ def test_the_first_compilation_announces_itself_once_and_can_be_silenced(caplog,
     for warm, count in [(True, 0), (False, 1)]:
         monkeypatch.setattr(kernels, "is_warm", lambda *_, warm=warm: warm)
         kernels.announce.cache_clear()
-        kernels._say_once.cache_clear()
-        for loop in ("run_steps", "run_held"):
+        kernels._said.clear()
+        for loop in ("run_steps", "run_held", "run_rope_steps"):
             progress.announce_compilation()
             kernels.announce(loop)
         assert caplog.text.count("compiling the kernels once") == count

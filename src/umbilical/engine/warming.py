@@ -8,22 +8,33 @@ from umbilical.engine.linear import linearise_plant
 from umbilical.engine.simulate import simulate
 from umbilical.library import load
 
-PARTS = ("the built-in controller", "the same in water", "controllers in Python", "linearised models")
-
 
 def warm_up(part: str) -> None:
     """Compile the kernels of one of :data:`PARTS`, or load them from disk if they are there.
 
     >>> warm_up("the built-in controller")
     """
-    scenario = load("paper", {"duration": 0.1})
-    match PARTS.index(part):
-        case 0:
-            simulate(scenario)
-        case 1:
-            simulate(load("work-class-1000m-current", {"duration": 0.1}))
-        case 2:
-            episode = Episode(scenario, 0.05)
-            episode.step(Command(thrust=0.0))
-        case _:
-            linearise_plant(scenario)
+    PARTS[part]()
+
+
+def _run(preset: str) -> None:
+    simulate(load(preset, {"duration": 0.1}))
+
+
+def _hold(preset: str) -> None:
+    Episode(load(preset, {"duration": 0.1}), 0.05).step(Command(thrust=0.0))
+
+
+def _rope() -> None:
+    _run("observation-300m")
+    _hold("observation-300m")
+
+
+PARTS = {
+    "the built-in controller": lambda: _run("paper"),
+    "the same in water": lambda: _run("work-class-1000m-current"),
+    "controllers in Python": lambda: _hold("paper"),
+    "linearised models": lambda: linearise_plant(load("paper")),
+    "the rope in space": _rope,
+}
+"""What there is to compile, and how."""
