@@ -159,7 +159,7 @@ def _jumps(scenario: Scenario) -> Iterator[tuple[str, Iterable[float]]]:
         named += [("vessel", rope.vessel_across)]
         named += [("force on the ROV", rope.force_across), ("force on the ROV", rope.force_up)]
     yield from ((name, signals.jumps(signal)) for name, signal in named)
-    yield "vessel", (environment.vessel_ramp,)
+    yield "vessel's full motion", (environment.vessel_ramp,)
     yield "winch", winch.jumps(scenario.winch)
     yield "fault", faults.jumps(scenario.faults, scenario.duration)
 

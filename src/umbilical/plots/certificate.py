@@ -25,6 +25,8 @@ RARE = 0.005
 """Share of the samples that may lie below the picture."""
 ROOM = 1.5
 """Factor between what is drawn and the edges of the picture."""
+LEAST_MARGIN = 1e-4
+"""Margins are drawn on a logarithmic scale down to here, for those that are hard to keep are thousandths."""
 EDGE = 0.01
 """Share of the time axis beside it, so that what happens at the start is seen."""
 
@@ -101,4 +103,7 @@ def draw_margins(ax: Axes, certificate: Certificate) -> None:
         colour, dashes = COLOURS[number % len(COLOURS)], ("-", "--", ":")[number // 3 % 3]
         ax.stairs(margin, certificate.edges, baseline=None, color=colour, linestyle=dashes, linewidth=1.3, label=name)
     ax.axhline(0.0, color=QUIET, linewidth=0.8)
+    lowest = min(float(np.nanmin(margin)) for margin in certificate.margins.values())
+    ax.set_yscale("symlog", linthresh=LEAST_MARGIN)
+    ax.set_ylim(min(2.0 * lowest, -LEAST_MARGIN), 2.0)
     dress(ax, "margin over the larger side: below 0 a condition fails", LEGEND, ylabel="margin").margins(x=EDGE)

@@ -128,13 +128,14 @@ def draw_channel(
 ) -> None:
     """One channel of time as a line, or as a band where it turns too often for a line.
 
-    A dashed line lies on top, so that both show where they agree.
+    A dashed line lies on top, so that both show where they agree; of a dashed band only the outline does.
     """
     time, values, paint = array["time"].values, array.values, COLOURS[colour % len(COLOURS)]
     if turns(values).size > MOST_TURNS:
         edges = np.linspace(0, time.size - 1, BAND + 1).astype(int)[:-1]
         low, high = np.minimum.reduceat(values, edges), np.maximum.reduceat(values, edges)
-        ax.fill_between(time[edges], low, high, step="post", color=paint, alpha=0.6, linewidth=0.5, label=label or None)
+        look = {"facecolor": "none" if dashed else paint, "edgecolor": paint, "linewidth": 0.5}
+        ax.fill_between(time[edges], low, high, step="post", alpha=0.6, label=label or None, **look)
         return
     (line,) = ax.plot(time, values, color=paint, linewidth=width)
     if label:
