@@ -15,11 +15,12 @@ import numpy as np
 
 from umbilical import __version__, files
 from umbilical.contents import CONTENTS, check_contents, contents_of, json_of, kind_of, refuse, text_rule, wrong_array
-from umbilical.errors import FileError
+from umbilical.errors import FileError, ScenarioError
 from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
 from umbilical.quantities import METRICS
 from umbilical.result import ResultFaces
 from umbilical.run import CONVENTION
+from umbilical.scenario.document import read_document
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.distributions import Drawn
@@ -215,8 +216,6 @@ def open_study(path: str | os.PathLike[str]) -> StudyResult:
     >>> umbilical.open_study("map/study.nc").data.equals(found.data)
     True
     """
-    from umbilical.errors import ScenarioError
-    from umbilical.scenario.document import read_document
     from umbilical.studies.load import admit_study
 
     data, origin = _open(path), f"{path}: the study inside"
