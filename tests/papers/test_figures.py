@@ -10,10 +10,10 @@ import pytest
 import xarray
 
 from tests.support.maps import made_up_maps
-from umbilical.papers.rao2022.drawing.maps import _borders
-from umbilical.papers.rao2022.drawing.style import COLUMN_WIDTH
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs
 from umbilical.papers.rao2022.figures import PICTURES, Picture
+from umbilical.papers.rao2022.figures.maps import _borders
+from umbilical.papers.rao2022.figures.style import COLUMN_WIDTH
 from umbilical.papers.rao2022.lyapunov import lyapunov
 from umbilical.papers.rao2022.maps import MAPS
 from umbilical.papers.rao2022.reproduction import KINDS, choose, show

@@ -1,6 +1,6 @@
 """The paper, reproduced: every figure from its runs, every claim with a verdict that numbers decide.
 
-``experiments`` are single runs, ``slices`` the maps; ``datasets`` hold what each figure shows, ``figures`` are the
+``experiments`` are single runs, ``maps`` the maps; ``figures`` hold each its data and its drawing and are the
 catalogue, ``claims`` the ledger, ``expected`` the published numbers, ``article`` the report.
 """
 

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 from umbilical import files, simulate
 from umbilical.formats import to_netcdf
 from umbilical.papers.rao2022.claims import judge
-from umbilical.papers.rao2022.drawing.style import RESOLUTION
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs, cell
 from umbilical.papers.rao2022.figures import PICTURES, Picture, needed
+from umbilical.papers.rao2022.figures.style import RESOLUTION
 from umbilical.papers.rao2022.ledger import Evidence, Finding
 from umbilical.papers.rao2022.maps import GAIN, MAPS, NAMES, compute_maps
 from umbilical.papers.rao2022.progress import Progress, parts

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.papers.rao2022.drawing.style import TYPE, column, letter, log_axis, raised, unit_label
+from umbilical.papers.rao2022.figures import style
+from umbilical.papers.rao2022.figures.picture import Picture
 
 if TYPE_CHECKING:
     import xarray
@@ -27,15 +28,15 @@ def draw_map(data: xarray.Dataset) -> Figure:
     Empty cells with a small x diverged; dots mark where an arm is better than known factors; the cross is the preset.
     """
     observers, arms = data["observer"].values, data["arm"].values
-    figure, panels = column(len(observers), 1.6, len(arms))
+    figure, panels = style.column(len(observers), 1.6, len(arms))
     for row, observer in enumerate(observers):
         own = panels[row * len(arms) : (row + 1) * len(arms)]
         _row(figure, own, data, str(observer))
         for place, (ax, arm) in enumerate(zip(own, arms, strict=True)):
-            title = f"{letter(row * len(arms) + place)} {ARM_WORDS[str(arm)]}"
+            title = f"{style.letter(row * len(arms) + place)} {ARM_WORDS[str(arm)]}"
             heading = "" if place else f"disturbance observer {observer}\n"
             _labels(ax, data, heading + title, place == 0, row == len(observers) - 1)
-    figure.supxlabel(_axis(data[data.attrs["x"]]), fontsize=TYPE)
+    figure.supxlabel(_axis(data[data.attrs["x"]]), fontsize=style.TYPE)
     return figure
 
 
@@ -49,9 +50,9 @@ def _row(figure: Figure, panels: list[Axes], data: xarray.Dataset, observer: str
     for ax, arm in zip(panels, data["arm"].values, strict=True):
         _better(ax, peaks.sel(arm=arm), peaks.sel(arm="without"), data)
     bar = figure.colorbar(pictures[0], ax=panels, pad=0.02)
-    bar.set_label(unit_label(data["peak"]), fontsize=TYPE)
-    bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
-    log_axis(bar.ax.yaxis)
+    bar.set_label(style.unit_label(data["peak"]), fontsize=style.TYPE)
+    bar.ax.tick_params(labelsize=style.TYPE - 1, length=2, pad=2)
+    style.log_axis(bar.ax.yaxis)
 
 
 def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNorm) -> QuadMesh:
@@ -68,7 +69,7 @@ def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNor
     ax.set_yscale(data[y].attrs["scale"])
     for axis, name, ticks in ((ax.xaxis, x, 12 // data.sizes["arm"]), (ax.yaxis, y, 6)):
         if data[name].attrs["scale"] == "log":
-            log_axis(axis, ticks)
+            style.log_axis(axis, ticks)
     ax.plot(data.attrs["paper_x"], data.attrs["paper_y"], "+", color="white", markersize=5, markeredgewidth=1.0)
     return picture
 
@@ -92,13 +93,36 @@ def _better(ax: Axes, peaks: xarray.DataArray, without: xarray.DataArray, data: 
 
 
 def _labels(ax: Axes, data: xarray.Dataset, title: str, leftmost: bool, lowest: bool) -> None:
-    size = TYPE if data.sizes["arm"] < 3 else TYPE - 1.4
+    size = style.TYPE if data.sizes["arm"] < 3 else style.TYPE - 1.4
     ax.set_title(title, fontsize=size, loc="left", pad=3)
-    ax.tick_params(labelsize=TYPE - 1, length=2, pad=2, labelleft=leftmost, labelbottom=lowest)
+    ax.tick_params(labelsize=style.TYPE - 1, length=2, pad=2, labelleft=leftmost, labelbottom=lowest)
     if leftmost:
-        ax.set_ylabel(_axis(data[data.attrs["y"]]), fontsize=TYPE)
+        ax.set_ylabel(_axis(data[data.attrs["y"]]), fontsize=style.TYPE)
 
 
 def _axis(array: xarray.DataArray) -> str:
     unit = array.attrs["units"]
-    return raised(array.attrs["long_name"] + (f" [{unit}]" if unit != "1" else ""))
+    return style.raised(array.attrs["long_name"] + (f" [{unit}]" if unit != "1" else ""))
+
+
+MARKS = "Dots: better than known factors; empty cells with a small x: diverged; white cross: the preset."
+PICTURES = (
+    Picture(
+        "map-time",
+        "Loss of thrust by the instant of the fault",
+        f"Peak of the ROV after the fault. {MARKS}",
+        draw_map,
+    ),
+    Picture(
+        "map-factors",
+        "Stuck value by the error of the known factors",
+        f"Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal. {MARKS}",
+        draw_map,
+    ),
+    Picture(
+        "map-rates",
+        "Start of the adaptation by its rate",
+        f"Peak of the ROV after motor 2 has died. With known factors nothing adapts, so all cells are equal. {MARKS}",
+        draw_map,
+    ),
+)

@@ -20,6 +20,8 @@ TYPE = 7.0
 """Points, when the figure is printed as wide as it is."""
 RESOLUTION = 300
 """Dots per inch of a PNG."""
+NO_FAULT = "none"
+FAULT_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 
 
 class Look(NamedTuple):
@@ -147,3 +149,48 @@ def log_axis(axis: Axis, ticks: int = 6) -> None:
     else:
         axis.set_major_locator(LogLocator(numticks=ticks))
         axis.set_major_formatter(LogFormatterSciNotation())
+
+
+def pair(ax: Axes, truth: xarray.DataArray, estimate: xarray.DataArray, title: str) -> None:
+    """A truth and its estimate in one panel."""
+    line(ax, truth, "truth")
+    line(ax, estimate, "estimate")
+    panel(ax, title, unit_label(truth))
+
+
+def pair_near(
+    ax: Axes, truth: xarray.DataArray, estimate: xarray.DataArray, window: tuple[float, float], title: str
+) -> None:
+    """A pair over a part of the time."""
+    part = slice(*window)
+    pair(ax, truth.sel(time=part), estimate.sel(time=part), title)
+    time_panels([ax], truth.sel(time=part).to_dataset(name="part"))
+
+
+def case_title(case: str, data: xarray.Dataset, number: str = "") -> str:
+    """(b) without a fault, (a) with one, as in the paper; numbered where there are several."""
+    return "(b) no fault" if case == NO_FAULT else f"(a{number}) motor {data.attrs['fault_motor']} {case}"
+
+
+def mark_cases(panels: list[Axes], cases: list[str], data: xarray.Dataset) -> None:
+    """The axis of time, and the fault where there is one."""
+    time_panels(panels, data, marked=False)
+    for ax, case in zip(panels, cases, strict=True):
+        if case != NO_FAULT:
+            mark_fault(ax, float(data.attrs["fault_time"]))
+
+
+def draw_motors(data: xarray.Dataset, name: str) -> Figure:
+    """A channel over ``case``, ``motor``, ``arm`` and ``time``."""
+    values = data[name]
+    cases = [*(c for c in values["case"].values if c != NO_FAULT), NO_FAULT]
+    shown = [case for case in cases for _ in values["motor"].values]
+    motors = [*values["motor"].values] * len(cases)
+    figure, panels = column(len(shown), 0.95)
+    for ax, case, motor in zip(panels, shown, motors, strict=True):
+        for arm in values["arm"].values:
+            line(ax, values.sel(case=case, arm=arm, motor=motor), str(arm))
+        panel(ax, f"{case_title(str(case), data)}: motor {motor}", unit_label(values))
+    mark_cases(panels, shown, data)
+    legend(figure, 3)
+    return figure
