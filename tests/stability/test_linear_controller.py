@@ -165,12 +165,12 @@ def test_memory_that_grows_or_never_rests_is_said() -> None:
 
 def test_numbers_in_nested_memory() -> None:
     memory = ({"a": [1.0, 2]}, cascade.OuterMemory.many(1), 3.0)
-    found = dict(find_numbers(memory))
+    found = find_numbers(memory)
     assert found[(0, "a", 0)] == 1.0
     assert found[(2,)] == 3.0
     assert (0, "a", 1) not in found
     written = write_numbers(memory, {path: 7.0 + k for k, path in enumerate(found)})
-    assert dict(find_numbers(written)) == {path: 7.0 + k for k, path in enumerate(found)}
+    assert find_numbers(written) == {path: 7.0 + k for k, path in enumerate(found)}
 
 
 def test_root_slope():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -139,22 +139,38 @@ def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -
     [1.0, 0.47]
     """
     loop, instants = certificate.loop, np.asarray(t, dtype=np.float64)
-    value, now = lyapunov_of(loop, certificate.weights, certificate.start) if start is None else start, 0.0
+    value = lyapunov_of(loop, certificate.weights, certificate.start) if start is None else start
     scale = 0.0 if loop.k_s is None else float(np.sqrt(certificate.weights.boundary / (2.0 * loop.k_s * loop.vs)))
     steps = {at: scale * size for at, size in certificate.loads.force_jumps}
-    marks, found = np.unique(np.concatenate([instants, certificate.edges, list(steps)])), {}
+    grid = np.union1d([0.0], np.concatenate([instants, certificate.edges, list(steps)]))
     stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
-    for mark in marks.tolist():
-        value = _advance(certificate, value, now, mark, certificate.residual)
-        if mark > 0.0:  # what happens at the start is in the start
-            value = (np.sqrt(value * stretch.get(mark, 1.0)) + steps.get(mark, 0.0)) ** 2
-        found[mark], now = value, mark
-    return np.array([found[instant] for instant in instants.tolist()])
+
+    def jump(at: float, value: float) -> float:
+        return (np.sqrt(value * stretch.get(at, 1.0)) + steps.get(at, 0.0)) ** 2
+
+    values = np.array([value, *march(certificate, grid, certificate.residual, value, jump)])
+    return values[np.searchsorted(grid, instants)]
 
 
-def _advance(certificate: Certificate, value: float, begin: float, end: float, power: float) -> float:
-    """V after some time within one slab: the solution of ``V' = -(th - spent) V + power``."""
-    slab = int(np.clip(np.searchsorted(certificate.edges, begin, side="right") - 1, 0, certificate.rates.size - 1))
-    rate, dt = float(certificate.rates[slab]) - certificate.spent, end - begin
-    gained = dt if rate == 0.0 else -np.expm1(-rate * dt) / rate
-    return value * float(np.exp(-rate * dt)) + (power * gained if power else 0.0)
+def march(
+    certificate: Certificate,
+    grid: np.ndarray,
+    power: float | np.ndarray,
+    value: float,
+    jump: Callable[[float, float], float],
+) -> Iterator[float]:
+    """The end of each step of a grid from 0: the solution of ``V' = -(th - spent) V + power``, power held, then a jump.
+
+    Args:
+        certificate: its rates; every edge of a slab lies on the grid.
+        grid: instants, s.
+        power: W, one for all steps or one for each.
+        value: V at the start, J.
+        jump: V just after an instant from the instant and V just before it.
+    """
+    slab = np.searchsorted(certificate.edges, grid[:-1], side="right") - 1
+    rate, dt = certificate.rates[np.clip(slab, 0, certificate.rates.size - 1)] - certificate.spent, np.diff(grid)
+    gained = power * np.where(rate == 0.0, dt, -np.expm1(-rate * dt) / np.where(rate == 0.0, 1.0, rate))
+    for end, left, more in zip(grid[1:].tolist(), np.exp(-rate * dt).tolist(), gained.tolist(), strict=True):
+        value = jump(end, value * left + more)
+        yield value

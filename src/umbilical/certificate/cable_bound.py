@@ -10,10 +10,9 @@ does not. The rates are the proved ones; in each step u_a and T_l are held at wh
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 
+from umbilical.certificate.bounds import march
 from umbilical.certificate.loads import Loads
 from umbilical.certificate.records import Certificate, Start
 from umbilical.certificate.setting import Loop
@@ -37,9 +36,11 @@ def cable_bound(certificate: Certificate, t: np.ndarray, start: Start | None = N
     slab = np.searchsorted(certificate.edges, grid[:-1], side="right") - 1
     pull = tension(0.0, certificate.ranges.net.high.max(axis=1)[slab], loop.hanging)
     fed = pull / (2.0 * loop.beta) * error_bound(loop, grid, begin, certificate.loads) ** 2
-    power = fed + certificate.cable_residual
-    values = np.array([begin.cable, *_march(certificate, grid, slab, power, begin.cable)])
-    return values[np.searchsorted(grid, t)]
+    stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
+    steps = march(
+        certificate, grid, fed + certificate.cable_residual, begin.cable, lambda at, v: v * stretch.get(at, 1.0)
+    )
+    return np.array([begin.cable, *steps])[np.searchsorted(grid, t)]
 
 
 def instants_of(certificate: Certificate) -> np.ndarray:
@@ -115,16 +116,3 @@ def _poles(loop: Loop) -> tuple[float, np.complex128]:
     assert loop.k_s is not None
     a, d = -loop.k_a / loop.m, -loop.k_s
     return 0.5 * (a + d), np.sqrt(np.complex128(0.25 * (a - d) ** 2 - loop.k_s * loop.vs / loop.m))
-
-
-def _march(
-    certificate: Certificate, grid: np.ndarray, slab: np.ndarray, power: np.ndarray, value: float
-) -> Iterator[float]:
-    """V1 + V2 at the end of each step: the solution for a power that is held over it."""
-    rate, dt = certificate.rates[slab] - certificate.spent, np.diff(grid)
-    fade = np.exp(-rate * dt)
-    gained = power * np.where(rate == 0.0, dt, -np.expm1(-rate * dt) / np.where(rate == 0.0, 1.0, rate))
-    stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
-    for end, left, more in zip(grid[1:].tolist(), fade.tolist(), gained.tolist(), strict=True):
-        value = (value * left + more) * stretch.get(end, 1.0)
-        yield value

@@ -5,7 +5,6 @@ A sum is bounded by the sum of its terms' bounds: never too small, and exact for
 
 from __future__ import annotations
 
-from functools import singledispatch
 from math import pi
 from typing import NamedTuple
 
@@ -96,65 +95,44 @@ def profile_norm(profile: Profile) -> float:
             return 1.0
 
 
-@singledispatch
 def _size(term: Term) -> float:
+    match term:
+        case Constant() | Step() | Pulse():
+            return abs(term.value)
+        case Sine() | Bell():
+            return abs(term.amplitude)
+        case Waves():
+            return sum(map(abs, term.amplitudes))
+        case Table(interpolation="smooth"):
+            return float(np.abs(_extremes(term, 0)).max())
+        case Table():
+            return max(map(abs, term.values))
     raise TypeError(f"not a term of a signal: {term!r}")
 
 
-@_size.register(Constant)
-@_size.register(Step)
-@_size.register(Pulse)
-def _(term: Constant | Step | Pulse) -> float:
-    return abs(term.value)
-
-
-@_size.register(Sine)
-@_size.register(Bell)
-def _(term: Sine | Bell) -> float:
-    return abs(term.amplitude)
-
-
-@_size.register
-def _(term: Waves) -> float:
-    return sum(map(abs, term.amplitudes))
-
-
-@_size.register
-def _(term: Table) -> float:
-    return float(np.abs(_extremes(term, 0)).max()) if term.interpolation == "smooth" else max(map(abs, term.values))
-
-
-@singledispatch
 def _rate(term: Term) -> float:
+    match term:
+        case Sine():
+            return abs(term.amplitude * term.frequency)
+        case Bell():
+            return _steepest(term)
+        case Waves():
+            return float(np.abs(np.array(term.amplitudes) * np.array(term.frequencies)).sum())
+        case Table(interpolation="linear"):
+            steps = np.diff(term.times)
+            return float(np.abs(np.diff(term.values)[steps > 0.0] / steps[steps > 0.0]).max())
+        case Table():
+            return float(np.abs(_extremes(term, 1)).max())
     return 0.0  # constants, and steps and pulses between their jumps
 
 
-@_rate.register
-def _(term: Sine) -> float:
-    return abs(term.amplitude * term.frequency)
-
-
-@_rate.register
-def _(term: Bell) -> float:
+def _steepest(bell: Bell) -> float:
     """With u = |q|^(2b) the slope is ``2b A/w u^(1 - 1/(2b))/(1 + u)^2``, largest at u = (2b - 1)/(2b + 1)."""
-    power = 2.0 * term.exponent
+    power = 2.0 * bell.exponent
     if power < 1.0:
         return float("inf")
     u = (power - 1.0) / (power + 1.0)
-    return abs(term.amplitude) / term.width * power * u ** (1.0 - 1.0 / power) / (1.0 + u) ** 2
-
-
-@_rate.register
-def _(term: Table) -> float:
-    if term.interpolation == "linear":
-        steps = np.diff(term.times)
-        return float(np.abs(np.diff(term.values)[steps > 0.0] / steps[steps > 0.0]).max())
-    return float(np.abs(_extremes(term, 1)).max())
-
-
-@_rate.register
-def _(term: Waves) -> float:
-    return float(np.abs(np.array(term.amplitudes) * np.array(term.frequencies)).sum())
+    return abs(bell.amplitude) / bell.width * power * u ** (1.0 - 1.0 / power) / (1.0 + u) ** 2
 
 
 def _doubled(term: Term) -> list[tuple[float, float]]:

@@ -8,7 +8,7 @@ smooth where it rests, that changes with time, or that reads or remembers someth
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from copy import deepcopy
 from typing import Any, NamedTuple
 
@@ -73,11 +73,14 @@ def _linearised(controller: Controller, rest: Rest) -> Linear:
     def step(x: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         before = write_numbers(deepcopy(settled), dict(zip(paths, x, strict=True)))
         thrust, after = _update(before, 0.0, _read(rest.seen, u))
-        return np.array([_number(after, path) for path in paths]), np.array([thrust])
+        return numbers(after), np.array([thrust])
 
-    start = np.array([_number(settled, path) for path in paths])
+    def numbers(pair: tuple[Any, Any]) -> np.ndarray:
+        found = find_numbers(pair)
+        return np.array([found[path] for path in paths])
+
     names = Names(tuple(".".join(map(str, path[1:])) for path in paths), READINGS, ("thrust_command",))
-    law = linearise(step, Point(start, np.zeros(len(READINGS)), names))
+    law = linearise(step, Point(numbers(settled), np.zeros(len(READINGS)), names))
     if not (np.abs(law.c).any() or np.abs(law.d).any()):
         raise Doubt("its thrust answers no reading at the operating point")
     for share in (0.0, 0.5, 1.0):
@@ -92,32 +95,28 @@ def _settle(controller: Controller, rest: Rest) -> tuple[Any, Any]:
     before: dict[Path, float] = {}
     for k in range(SETTLING):
         _, pair = _update(pair, k * controller.period, rest.seen)
-        now = dict(find_numbers(pair))
-        if k > 1 and now.keys() == before.keys() and all(_same(now[path], before[path]) for path in now):
+        now = find_numbers(pair)
+        if k > 1 and now.keys() == before.keys() and all(_same(now[path], before[path], STILL) for path in now):
             return pair
         before = now
     raise Doubt(f"its memory does not come to rest within {SETTLING} updates on readings that do not change")
 
 
-def _same(one: float, other: float) -> bool:
-    return one == other or abs(one - other) <= STILL * max(1.0, abs(one)) or (one != one and other != other)
+def _same(one: float, other: float, tolerance: float = 0.0) -> bool:
+    return one == other or abs(one - other) <= tolerance * max(1.0, abs(one)) or (one != one and other != other)
 
 
 def _changing(settled: tuple[Any, Any], rest: Rest) -> list[Path]:
     """Where the numbers are that change when the readings do."""
-    first, pair = dict(find_numbers(settled)), deepcopy(settled)
+    first, pair = find_numbers(settled), deepcopy(settled)
     changed: set[Path] = set()
     for k, u in enumerate(_readings()):
         _, pair = _update(pair, k * pair[0].period, _read(rest.seen, u[:-1]))
-        now = dict(find_numbers(pair))
+        now = find_numbers(pair)
         if now.keys() != first.keys():
             raise Doubt("its memory changes its shape from update to update")
-        changed |= {path for path, value in now.items() if not _exactly(value, first[path])}
+        changed |= {path for path, value in now.items() if not _same(value, first[path])}
     return [path for path in first if path in changed]
-
-
-def _exactly(one: float, other: float) -> bool:
-    return one == other or (one != one and other != other)
 
 
 def _compare(law: Linear, settled: tuple[Any, Any], rest: Rest, begin: float) -> None:
@@ -173,49 +172,43 @@ def _update(pair: tuple[Any, Any], t: float, seen: Measurement) -> tuple[float, 
     return float(command.thrust), (controller, state)
 
 
-def find_numbers(tree: Any, path: Path = ()) -> Iterator[tuple[Path, float]]:
+def find_numbers(tree: Any) -> dict[Path, float]:
     """Real numbers inside nested objects, each with the way to it; whole numbers count, they are no state.
 
-    >>> dict(find_numbers({"held": 1.5, "count": 3, "memory": (np.array([2.0]),)}))
+    >>> find_numbers({"held": 1.5, "count": 3, "memory": (np.array([2.0]),)})
     {('held',): 1.5, ('memory', 0, (0,)): 2.0}
     """
-    if isinstance(tree, (float, np.floating)):
-        yield path, float(tree)
-    elif isinstance(tree, np.ndarray) and tree.dtype.names is None:
-        if tree.dtype.kind == "f":
-            yield from (((*path, place), float(tree[place])) for place in np.ndindex(tree.shape))
-    else:
-        for key, part in _parts(tree).items():
-            yield from find_numbers(part, (*path, key))
+    found: dict[Path, float] = {}
+    _visit(tree, (), found.__setitem__)
+    return found
 
 
 def write_numbers(tree: Any, values: Mapping[Path, float]) -> Any:
     """Put numbers where :func:`find_numbers` found them: in place, but for what cannot be changed, which is new."""
-    if not values:
-        return tree
-    if () in values:
-        return values[()]
-    below: dict[Any, dict[Path, float]] = {}
-    for (key, *rest), value in values.items():
-        below.setdefault(key, {})[tuple(rest)] = value
+    return _visit(tree, (), lambda path, number: values.get(path))
+
+
+def _visit(tree: Any, path: Path, change: Callable[[Path, float], float | None]) -> Any:
+    """The tree once every real number in it has been replaced by what ``change`` returns, unless that is None."""
+    if isinstance(tree, (float, np.floating)):
+        new = change(path, float(tree))
+        return tree if new is None else new
     if isinstance(tree, np.ndarray) and tree.dtype.names is None:
-        for place, value in below.items():
-            tree[place] = value[()]
+        for place in np.ndindex(tree.shape) if tree.dtype.kind == "f" else ():
+            if (new := change((*path, place), float(tree[place]))) is not None:
+                tree[place] = new
         return tree
     parts = _parts(tree)
-    new = {key: write_numbers(parts[key], part) for key, part in below.items()}
-    if isinstance(tree, tuple):
-        filled = [new.get(key, part) for key, part in parts.items()]
-        return type(tree)(*filled) if hasattr(tree, "_fields") else type(tree)(filled)
-    put: Callable[[Any, Any, Any], None] = _put_item if isinstance(tree, (dict, list)) else object.__setattr__
-    for key, part in new.items():
-        if not isinstance(tree, np.ndarray):  # its fields have been changed in place
-            put(tree, key, part)
+    new = {key: _visit(part, (*path, key), change) for key, part in parts.items()}
+    changed = {key: part for key, part in new.items() if part is not parts[key]}
+    if changed and isinstance(tree, tuple):
+        return type(tree)(*new.values()) if hasattr(tree, "_fields") else type(tree)(new.values())
+    for key, part in changed.items():
+        if isinstance(tree, (dict, list)):
+            tree[key] = part
+        else:
+            object.__setattr__(tree, key, part)
     return tree
-
-
-def _put_item(tree: Any, key: Any, value: Any) -> None:
-    tree[key] = value
 
 
 def _parts(tree: Any) -> dict[Any, Any]:
@@ -230,9 +223,3 @@ def _parts(tree: Any) -> dict[Any, Any]:
         return {}
     slots = [f.name for f in dataclasses.fields(tree)] if dataclasses.is_dataclass(tree) else []
     return {name: getattr(tree, name) for name in slots if hasattr(tree, name)} | dict(getattr(tree, "__dict__", {}))
-
-
-def _number(tree: Any, path: Path) -> float:
-    for key in path:
-        tree = tree[key] if isinstance(tree, (np.ndarray, dict, tuple, list)) else getattr(tree, key)
-    return float(tree)
