@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from umbilical.analysis.paired import LEVEL, compare, exceedance, quantile, ranks, share
+from umbilical.analysis.paired import LEVEL, compare, exceedance_probability, proportion, quantile, ranks
 
 SHARES = (0.5, 0.9, 0.95, 0.99)
 SIZES = range(8, 1001)
@@ -54,7 +54,7 @@ def test_so_it_does_of_samples_that_are_drawn_continuous_or_not(size, level):
 
 @pytest.mark.parametrize("size", [8, 20, 50, 200, 1000])
 def test_the_interval_of_a_share_covers_it_as_often_as_it_says(size):
-    intervals = np.array([share(count, size)[1:] for count in range(size + 1)])
+    intervals = np.array([proportion(count, size)[1:] for count in range(size + 1)])
     for truth in np.linspace(0.001, 0.999, 250):
         held = (intervals[:, 0] <= truth) & (truth <= intervals[:, 1])
         assert stats.binom.pmf(np.arange(size + 1), size, truth)[held].sum() >= LEVEL - 1e-12
@@ -63,12 +63,12 @@ def test_the_interval_of_a_share_covers_it_as_often_as_it_says(size):
 @pytest.mark.parametrize(("count", "of"), [(0, 50), (1, 50), (25, 50), (50, 50), (731, 1000)])
 def test_the_interval_of_a_share_is_that_of_clopper_and_pearson(count, of):
     truth = stats.binomtest(count, of).proportion_ci(method="exact")
-    assert share(count, of)[1:] == pytest.approx((truth.low, truth.high), abs=1e-9)
-    assert share(max(count - 0.5, 0), of).low <= truth.low
+    assert proportion(count, of)[1:] == pytest.approx((truth.low, truth.high), abs=1e-9)
+    assert proportion(max(count - 0.5, 0), of).low <= truth.low
 
 
 def test_of_nothing_nothing_is_known():
-    assert share(0, 0)[1:] == (0.0, 1.0)
+    assert proportion(0, 0)[1:] == (0.0, 1.0)
 
 
 def test_pairing_finds_what_two_samples_hide():
@@ -90,5 +90,5 @@ def test_diverged_is_worse_than_any_number_and_refused_is_left_out():
     found = compare(values, reference)
     assert found.members == 4
     assert found.better.value == pytest.approx((2 + 0.5) / 4)
-    assert exceedance(values, 1.0).value == pytest.approx(4 / 5)
+    assert exceedance_probability(values, 1.0).value == pytest.approx(4 / 5)
     assert quantile(np.array([1.0, 2.0, np.inf]), 0.95).value == np.inf

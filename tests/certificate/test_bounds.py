@@ -13,9 +13,9 @@ from tests.support.certificates import FREE, GAIN, HALF_SINE, fixed, matrices
 from tests.support.scenarios import constant, sine
 from umbilical.certificate import Start, bound, cable_bound, displacement_bound, largest_bounds, lyapunov_of
 from umbilical.certificate.cable_bound import error_bound, responses
-from umbilical.certificate.loads import Loads, jumps, loads_of, rate, size
+from umbilical.certificate.loads import Loads, jumps_of, largest_rate, largest_value, loads_of
 from umbilical.certificate.lyapunov import cable_function, loads_along
-from umbilical.certificate.setting import loop_of
+from umbilical.certificate.setting import ideal_constants
 from umbilical.plant import signals, winch
 from umbilical.relations.tension import tension
 from umbilical.scenario.environment import Environment
@@ -46,19 +46,19 @@ def test_one_term_is_bounded_closely(name: str) -> None:
     signal = environment(payload_force=[TERMS[name]]).payload_force
     largest = np.abs(signals.evaluate(signal, TIME)).max()
     steepest = np.abs(signals.derivative(signal, TIME)).max()
-    assert largest <= size(signal) <= largest * 1.001
-    assert steepest <= rate(signal) * (1.0 + 1e-12)
-    assert rate(signal) <= steepest * 1.001 + 1e-12
+    assert largest <= largest_value(signal) <= largest * 1.001
+    assert steepest <= largest_rate(signal) * (1.0 + 1e-12)
+    assert largest_rate(signal) <= steepest * 1.001 + 1e-12
 
 
 def test_a_cusp_has_no_bound() -> None:
     cusp = environment(payload_force=[TERMS["sharp bell"] | {"exponent": 0.4}]).payload_force
-    assert rate(cusp) == np.inf
+    assert largest_rate(cusp) == np.inf
 
 
 def test_jumps_add_up() -> None:
     signal = environment(payload_force=[TERMS["step"], TERMS["pulse"]]).payload_force
-    assert jumps(signal) == ((3.0, 8.0), (8.0, 4.0))
+    assert jumps_of(signal) == ((3.0, 8.0), (8.0, 4.0))
 
 
 def test_the_vessel_and_loads_along_the_cable_are_bounded() -> None:
@@ -107,7 +107,7 @@ def test_response_of_the_law() -> None:
     """Against the integral of ``m u' = -k_a u + D~``, ``D~' = -k_s (D~ + vs u) + D'`` by scipy."""
     from scipy.integrate import solve_ivp
 
-    loop = loop_of(fixed(5.0))._replace(k_a=4000.0, vs=3000.0)
+    loop = ideal_constants(fixed(5.0))._replace(k_a=4000.0, vs=3000.0)
     k_s = 5.0
 
     def law(t: float, z: np.ndarray) -> list[float]:
@@ -129,7 +129,7 @@ def test_response_of_the_law() -> None:
 @pytest.mark.parametrize(("error", "missed"), [(0.3, -90.0), (0.0, 500.0), (0.1, -900.0)])
 def test_response_between_the_steps_of_a_coarse_grid(coupling: float, error: float, missed: float) -> None:
     """It has turning points inside of steps, above both of their ends: held at the ends it would be exceeded."""
-    loop = loop_of(fixed(5.0))._replace(k_a=4000.0, vs=coupling)
+    loop = ideal_constants(fixed(5.0))._replace(k_a=4000.0, vs=coupling)
     coarse, inside = np.linspace(0.0, 4.0, 41), np.linspace(0.0, 4.0, 4001)
     limit = error_bound(loop, coarse, Start(0.0, error, missed), Loads(0.0, 0.0, (), 0.0, 0.0, 0.0))
     of_error, of_missed = responses(loop, inside)

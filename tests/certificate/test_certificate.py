@@ -14,18 +14,18 @@ from scipy.linalg import eigh
 import umbilical
 from tests.support.certificates import FREE, GAIN, fixed, hauled_in, matrices
 from umbilical.certificate import Inequality
-from umbilical.certificate.conditions import extent, largest_cross, rates
+from umbilical.certificate.conditions import decay_rates, extent, largest_cross
 from umbilical.certificate.search import best_weights
-from umbilical.certificate.setting import Loop, Motion, loop_of, sampled, slab_edges
+from umbilical.certificate.setting import Loop, Payout, ideal_constants, sampled, slab_edges
 from umbilical.errors import ScenarioError
 
 MODEL = 0.02
 """The model gives two digits."""
 
 
-def prepared(scenario: umbilical.Scenario) -> tuple[Loop, Motion]:
+def prepared(scenario: umbilical.Scenario) -> tuple[Loop, Payout]:
     edges = slab_edges(scenario.winch, scenario.duration)
-    return loop_of(scenario), sampled(scenario.winch, scenario.environment.gravity, edges)
+    return ideal_constants(scenario), sampled(scenario.winch, scenario.environment.gravity, edges)
 
 
 @cache
@@ -80,7 +80,7 @@ def test_a_weight_that_follows_the_tension_moves_the_jerk_in_time_and_does_not_a
     loop, motion = prepared(umbilical.load("paper", {GAIN: 0.5}))
     found = best_weights(loop, motion)
     assert found is not None
-    plain = rates(loop, motion, *found)
+    plain = decay_rates(loop, motion, *found)
     best = {nu: float((plain - nu * motion.relative_jerk).min()) for nu in (0.0, 1.0 / 3.0, 1.0)}
     assert best[0.0] < 0.0 < best[1.0 / 3.0], "a third of it certifies a smaller gain"
     assert best[1.0] < best[0.0], "following the tension wholly makes it worse"
@@ -95,7 +95,7 @@ def test_the_ends_of_the_cable_decide() -> None:
     loop, motion = prepared(umbilical.load("haul-in", {GAIN: 20.0, "cable.damping": 0.3}))
     found = best_weights(loop, motion)
     assert found is not None
-    formula = rates(loop, motion, *found)
+    formula = decay_rates(loop, motion, *found)
     for slab in range(0, motion.t.shape[0], 6):
         length, v, a, nu = (float(x[slab, 0]) for x in (motion.l, motion.v, motion.a, motion.relative_jerk))
         pairs = [matrices(loop, *found, x, (length, v, a, nu)) for x in np.linspace(0.0, length, 200)]
@@ -112,8 +112,8 @@ def test_no_weights_at_random_are_better(name: str, slope_gain: float) -> None:
     room, dice = extent(loop, motion), np.random.default_rng(1)
     vessel = dice.uniform(room.least_vessel, room.reach.min(), 3000)
     cross = dice.uniform(0.0, 1.0, 3000) ** 0.3 * largest_cross(motion, room, vessel)
-    others = rates(loop, motion, cross[:, None, None], vessel[:, None, None]).min(axis=(1, 2))
-    assert others.max() <= rates(loop, motion, *found).min() * (1.0 + 1e-3)
+    others = decay_rates(loop, motion, cross[:, None, None], vessel[:, None, None]).min(axis=(1, 2))
+    assert others.max() <= decay_rates(loop, motion, *found).min() * (1.0 + 1e-3)
 
 
 def recommended(certificate: umbilical.Certificate) -> float:

@@ -11,10 +11,10 @@ import umbilical
 from tests.support.certificates import fixed
 from umbilical.certificate.conditions import (
     boundary_weight,
+    decay_rates,
     extent,
     largest_cross,
     rate_limit,
-    rates,
 )
 from umbilical.certificate.ideal_loop import (
     cable_modes,
@@ -24,22 +24,22 @@ from umbilical.certificate.ideal_loop import (
     law_modes,
 )
 from umbilical.certificate.search import best_weights
-from umbilical.certificate.setting import Loop, Motion, loop_of
+from umbilical.certificate.setting import Loop, Payout, ideal_constants
 
 RANDOM_LOOPS = 200
-PAPER = loop_of(fixed(5.0))
+PAPER = ideal_constants(fixed(5.0))
 
 
-def held(length: float, gravity: float) -> Motion:
+def held(length: float, gravity: float) -> Payout:
     zero = np.zeros((1, 1))
-    return Motion(zero, np.full((1, 1), length), zero, zero, zero + gravity, zero)
+    return Payout(zero, np.full((1, 1), length), zero, zero, zero + gravity, zero)
 
 
 def certified(loop: Loop, length: float) -> float:
     """Best rate, 1/s; minus infinity where there is none."""
     motion = held(length, loop.g)
     found = best_weights(loop, motion)
-    return -np.inf if found is None else min(float(rates(loop, motion, *found).min()), rate_limit(loop))
+    return -np.inf if found is None else min(float(decay_rates(loop, motion, *found).min()), rate_limit(loop))
 
 
 def random_loops(count: int) -> Iterator[tuple[Loop, float, float]]:
@@ -129,7 +129,7 @@ def test_without_its_conditions_it_would() -> None:
         motion = held(length, loop.g)
         room = extent(loop, motion)
         cross = 4.0 * largest_cross(motion, room, 0.0)
-        broken += min(float(rates(loop, motion, cross, 0.0).min()), rate_limit(loop)) > energy_rate(loop, length)
+        broken += min(float(decay_rates(loop, motion, cross, 0.0).min()), rate_limit(loop)) > energy_rate(loop, length)
     assert broken >= 3
 
 

@@ -12,10 +12,10 @@ from mpmath.ctx_iv import MPIntervalContext
 import umbilical
 from tests.support.certificates import GAIN, fixed, hauled_in
 from umbilical.certificate import Certificate, Proof, Weights
-from umbilical.certificate.conditions import ALONG, case_of
+from umbilical.certificate.conditions import ALONG, terms_of
 from umbilical.certificate.proof import prove
 from umbilical.certificate.proof_motion import motion_over
-from umbilical.certificate.setting import Motion, loop_of, slab_edges
+from umbilical.certificate.setting import Payout, ideal_constants, slab_edges
 from umbilical.plant import winch as laws
 from umbilical.scenario.winch import ConstantLength, ConstantSpeed, Cosine, Quintic, TabulatedLength, Trapezoid, Winch
 
@@ -96,7 +96,7 @@ def test_a_corner_of_zeros_does_not_let_the_other_corner_pass() -> None:
     """Without damping, lam and rate M is [[0, 0], [0, T j/2]]: its determinant is 0, and with j < 0 it is no sum of
     squares. The same with lam > 0 and a rate of lam, where only the far corner says no."""
     scenario = umbilical.load("paper", {GAIN: 5.0, "cable.damping": 0.0})
-    loop, edges = loop_of(scenario), slab_edges(scenario.winch, scenario.duration)
+    loop, edges = ideal_constants(scenario), slab_edges(scenario.winch, scenario.duration)
     for cross, condition in ((0.0, "weights"), (1e-3, "K5")):
         rates = np.full(edges.size - 1, cross)
         proof = prove(loop, scenario.winch, edges, rates, Weights(cross, 0.0, 0.5), strict=False)
@@ -162,12 +162,12 @@ def test_a_winch_faster_than_the_waves_proves_nothing(paying_out: Certificate) -
 @pytest.mark.parametrize("name", ["K0", "K5"])
 def test_what_holds_at_both_ends_holds_between(paying_out: Certificate, name: str) -> None:
     """K0 and K5 at a point between, as the end of a cable cut off there: nowhere less than at both ends."""
-    rng, loop, motion = np.random.default_rng(3), paying_out.loop, Motion(0.0, 400.0, 0.5, 0.1, 9.0, 0.2)
+    rng, loop, motion = np.random.default_rng(3), paying_out.loop, Payout(0.0, 400.0, 0.5, 0.1, 9.0, 0.2)
     for _ in range(50):
         weights = Weights(*rng.normal(0.0, (0.01, 3.0, 1.0)))
         rate = float(rng.normal(0.0, 0.02))
-        at_ends = np.reshape(list(ALONG[name](case_of(loop, weights, motion), rate)), (2, -1))
+        at_ends = np.reshape(list(ALONG[name](terms_of(loop, weights, motion), rate)), (2, -1))
         for x in rng.uniform(0.0, motion.l, 20):
             cut = weights._replace(vessel=weights.vessel + weights.cross * x), motion._replace(l=motion.l - x)
-            here = np.reshape(list(ALONG[name](case_of(loop, *cut), rate)), (2, -1))[0]
+            here = np.reshape(list(ALONG[name](terms_of(loop, *cut), rate)), (2, -1))[0]
             assert (here >= at_ends.min(axis=0) - 1e-9 * np.abs(at_ends).max(axis=0)).all()

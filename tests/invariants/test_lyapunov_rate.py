@@ -12,7 +12,12 @@ import umbilical
 from tests.support.certificates import GAIN
 from tests.support.scenarios import run, sine
 from umbilical.certificate import Weights
-from umbilical.certificate.lyapunov import boundary_function, boundary_rates, cable_function, cable_rates
+from umbilical.certificate.lyapunov import (
+    boundary_function,
+    boundary_function_rates,
+    cable_function,
+    cable_function_rates,
+)
 from umbilical.studies.audit import _READ, ideal_loop
 
 TOLERANCE = 2e-4
@@ -53,7 +58,7 @@ def distance(value: np.ndarray, rates: dict[str, np.ndarray], time: np.ndarray) 
 def test_rate_of_the_cable(way: tuple[float, float]) -> None:
     result = moved(way)
     read = arrays(result)
-    value, rates = cable_function(result.scenario, read, WEIGHTS), cable_rates(result.scenario, read, WEIGHTS)
+    value, rates = cable_function(result.scenario, read, WEIGHTS), cable_function_rates(result.scenario, read, WEIGHTS)
     assert distance(value, rates, read["time"]) < TOLERANCE
     for name in rates:
         without = {other: term for other, term in rates.items() if other != name}
@@ -64,7 +69,7 @@ def test_rate_with_a_cable_lighter_in_water() -> None:
     """The slope of the tension takes the wet density, and only it."""
     result = moved(WAYS[0], **{"cable.wet_line_density": 0.5})
     read = arrays(result)
-    value, rates = cable_function(result.scenario, read, WEIGHTS), cable_rates(result.scenario, read, WEIGHTS)
+    value, rates = cable_function(result.scenario, read, WEIGHTS), cable_function_rates(result.scenario, read, WEIGHTS)
     assert distance(value, rates, read["time"]) < TOLERANCE
 
 
@@ -82,7 +87,7 @@ def test_rate_of_the_law(way: tuple[float, float]) -> None:
     }
     scenario = ideal_loop(umbilical.load("paper", change)).replace({"output.interval": 1e-3})
     read = arrays(run(scenario))
-    value, rates = boundary_function(scenario, read, WEIGHTS), boundary_rates(scenario, read, WEIGHTS)
+    value, rates = boundary_function(scenario, read, WEIGHTS), boundary_function_rates(scenario, read, WEIGHTS)
     assert distance(value, rates, read["time"]) < 2e-3
     for name in ("disturbance estimate", "disturbance rate"):
         without = {other: term for other, term in rates.items() if other != name}

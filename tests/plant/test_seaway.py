@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import umbilical
-from umbilical.certificate.loads import jumps, rate, size
+from umbilical.certificate.loads import jumps_of, largest_rate, largest_value
 from umbilical.errors import ScenarioError
 from umbilical.library.admit import admit
 from umbilical.plant import regular, signals
@@ -112,7 +112,7 @@ def test_spreading_in_a_narrow_cone_is_nearly_long_crested() -> None:
 
 def test_bounds_for_certificates() -> None:
     term = Waves(kind="waves", frequencies=(1.0, 2.0), amplitudes=(0.5, -0.25), phases=(0.0, 1.0))
-    assert (size((term,)), rate((term,))) == (0.75, 1.0)
+    assert (largest_value((term,)), largest_rate((term,))) == (0.75, 1.0)
 
 
 def test_the_rope_gets_all_three_directions() -> None:
@@ -161,8 +161,8 @@ def test_bounds_of_monotone_and_jumping_tables() -> None:
     fine = np.linspace(0.0, 3.0, 3001)
     steep = (Table(kind="table", times=(0.0, 1.0, 1.1, 3.0), values=(0.0, 0.0, 1.0, 1.0), interpolation="pchip"),)
     slopes = abs(signals.derivative(steep, fine))
-    assert slopes.max() <= rate(steep) <= 1.001 * slopes.max()
-    assert size(steep) == 1.0
+    assert slopes.max() <= largest_rate(steep) <= 1.001 * slopes.max()
+    assert largest_value(steep) == 1.0
     jumping = (Table(kind="table", times=(0.0, 1.0, 1.0, 3.0), values=(0.0, 1.0, 4.0, 4.0), interpolation="linear"),)
-    assert rate(jumping) == 1.0
-    assert jumps(jumping) == ((1.0, 3.0),)
+    assert largest_rate(jumping) == 1.0
+    assert jumps_of(jumping) == ((1.0, 3.0),)

@@ -126,9 +126,9 @@ import numpy as np
 import umbilical
 from umbilical.plant.checks.motion import tension_above_zero, wave_speed
 from umbilical.plant.checks.steps import chosen_step, grid_near_the_payload, wave_step, waves_that_leave
-from umbilical.certificate.lyapunov import cable_function, cable_rates
+from umbilical.certificate.lyapunov import cable_function, cable_function_rates
 from umbilical.certificate.records import Weights
-from umbilical.stability.judgement import judge
+from umbilical.stability.judgement import margins_at
 from umbilical.stability.grid import on_grid
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.initial import initial_slopes
@@ -177,10 +177,10 @@ answers = {
     "check: grid near the ROV": found(grid_near_the_payload, duration=1.0, control=s.control, winch=s.winch,
                                       grid=s.grid, **common),
     "linearisation": numbers(linearise_plant(still).a.data),
-    "margins": numbers([(j := judge(still, 400.0)).margins.gain_high.size, j.margins.phase.size]),
+    "margins": numbers([(j := margins_at(still, 400.0)).margins.gain_high.size, j.margins.phase.size]),
     "step of the design's grids": [on_grid(s, 500.0, 2000).grid.step],
     "V along a run": numbers(cable_function(s, read, weights)),
-    "rate of V along a run": numbers(list(cable_rates(s, read, weights).values())),
+    "rate of V along a run": numbers(list(cable_function_rates(s, read, weights).values())),
     "V of the paper": numbers(lyapunov(run)["V"]),
     "certificate: rates": numbers(certificate.rates),
     "certificate: weights": numbers(certificate.weights),

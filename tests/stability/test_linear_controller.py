@@ -13,9 +13,9 @@ from umbilical import Command
 from umbilical.control import cascade
 from umbilical.control.cascade import Cascade
 from umbilical.control.contract import Measurement
-from umbilical.engine.linearise import Linear, Point, delayed, held, linearise
+from umbilical.engine.linearise import Linear, LinearisationPoint, delayed, hold_input, linearise
 from umbilical.relations.formulas import soft_signed_root
-from umbilical.stability.laws import motor_law, outer_law, root_slope, shares, soft_square
+from umbilical.stability.laws import linear_motor_law, linear_outer_law, root_slope, shares, soft_square
 from umbilical.stability.updates import Doubt, Rest, find_numbers, linearise_controller, write_numbers
 
 PAPER = umbilical.load("paper")
@@ -24,7 +24,7 @@ REST = Rest(Measurement(0.0, 0.0, np.array([5.0]), np.array([2.0]), 400.0, 0.0, 
 
 def test_what_is_linear_comes_out_to_the_last_bit() -> None:
     a, b = np.random.default_rng(1).normal(size=(2, 3, 3))
-    found = linearise(lambda x, u: (a @ x, b @ u), Point(np.zeros(3), np.zeros(3)))
+    found = linearise(lambda x, u: (a @ x, b @ u), LinearisationPoint(np.zeros(3), np.zeros(3)))
     np.testing.assert_array_equal(np.hstack([found.a, found.d]), np.hstack([a, b]))
 
 
@@ -51,7 +51,7 @@ def assert_same(found: Linear, expected: Linear, tolerance: float) -> None:
 )
 def test_outer_law(preset, changes):
     outer = cascade.make_settings(umbilical.load(preset, changes)).outer
-    found = outer_law(outer)
+    found = linear_outer_law(outer)
     assert_same(found, by_hand.outer_law(outer), 1e-14)
     assert found.names.states[-1] == "thrust_command"
     assert found.names.inputs[0] == "tip_displacement"
@@ -63,11 +63,11 @@ def test_motor_law(demand):
     speed = soft_signed_root(demand, motors.command_filter.width)
     assert soft_square(speed, motors.command_filter.width) == pytest.approx(demand, rel=1e-12)
     expected = by_hand.motor_law(motors, motors.nominal[0], speed, demand)
-    assert_same(motor_law(motors, 0, speed), expected, 1e-7)
+    assert_same(linear_motor_law(motors, 0, speed), expected, 1e-7)
     with pytest.raises(AssertionError):  # another speed is noticed
-        assert_same(motor_law(motors, 0, 2.0 * speed), expected, 1e-7)
+        assert_same(linear_motor_law(motors, 0, 2.0 * speed), expected, 1e-7)
     random = by_hand.motor_law(motors, motors.nominal[0], speed, 0.0, spread=demand)
-    assert_same(motor_law(motors, 0, speed, 0.0, spread=demand), random, 1e-7)
+    assert_same(linear_motor_law(motors, 0, speed, 0.0, spread=demand), random, 1e-7)
 
 
 class Damper:
@@ -111,7 +111,7 @@ def test_the_built_in_one_behind_the_contract() -> None:
     """Its transfer function; its states are those that change, in another order."""
     scenario = umbilical.load("paper", {"ideal_thruster": True})
     z = np.exp(1j * np.array([0.01, 0.3, 2.0]))
-    expected = outer_law(cascade.make_settings(scenario).outer).response(z)
+    expected = linear_outer_law(cascade.make_settings(scenario).outer).response(z)
     np.testing.assert_allclose(linearise_controller(Cascade(scenario), REST).response(z), expected, rtol=1e-9)
 
 
@@ -196,6 +196,6 @@ def test_a_late_input_is_a_power_of_z():
 
 
 def test_held_input():
-    a, b = held(np.array([[-2.0]]), np.array([[2.0, 4.0]]), 0.5)
+    a, b = hold_input(np.array([[-2.0]]), np.array([[2.0, 4.0]]), 0.5)
     np.testing.assert_allclose(a, [[np.exp(-1.0)]])
     np.testing.assert_allclose(b, [[1.0 - np.exp(-1.0), 2.0 * (1.0 - np.exp(-1.0))]])

@@ -11,9 +11,9 @@ import umbilical
 from tests.support.spectra import tip_response
 from umbilical.errors import ScenarioError
 from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import check, judge, judge_loop, usual_lengths, usual_thrust
-from umbilical.stability.limits import later, margins, scaled, turned
-from umbilical.stability.nyquist import resolved_ratio, stability, sweep
+from umbilical.stability.judgement import check_loop, margins_at, margins_of, usual_lengths, usual_thrust
+from umbilical.stability.limits import delay_factor, find_limits, gain_factor, phase_factor
+from umbilical.stability.nyquist import resolved_ratio, stability, sweep_loop
 from umbilical.stability.sampled import ALIASES, alias_sum, loop_response, sampled_loop
 
 RINGDOWN = umbilical.load("ringdown")
@@ -27,7 +27,7 @@ def boundary(beta: float, **changes):
 @pytest.mark.parametrize("beta", [0.01, 1.0, 10.0, 20.0])
 def test_ideal_reflection_at_low_frequency(beta):
     """(c_l - beta)/(c_l + beta), as long as observers, motors and the period are fast against the wave."""
-    found = judge(boundary(beta, ideal_thruster=True), 400.0)
+    found = margins_at(boundary(beta, ideal_thruster=True), 400.0)
     ideal = (50.0 - beta) / (50.0 + beta)
     first_modes = found.reflection[(found.frequency > 0.3) & (found.frequency < 1.0)]
     np.testing.assert_allclose(first_modes, ideal, rtol=0.01)
@@ -66,7 +66,7 @@ def test_the_count_is_the_number_of_poles_that_grow():
     from umbilical.stability.judgement import _polished
     from umbilical.stability.nyquist import near_poles
 
-    swept = sweep(replace(CABLE, length=60.0), sampled_loop(boundary(1.0), 50.0))
+    swept = sweep_loop(replace(CABLE, length=60.0), sampled_loop(boundary(1.0), 50.0))
     poles = np.array([_polished(swept, p) for p in near_poles(swept, 120)])  # up to 300 rad/s
     found = stability(swept)
     assert found.endless == 0
@@ -77,8 +77,8 @@ def test_the_count_is_the_number_of_poles_that_grow():
 
 def test_a_loop_of_the_wrong_sign_is_unstable():
     wrong = replace(LOOP, drives=tuple(replace(d, weight=-d.weight) for d in LOOP.drives))
-    assert stability(sweep(CABLE, LOOP)).unstable == 0
-    found = stability(sweep(CABLE, wrong))
+    assert stability(sweep_loop(CABLE, LOOP)).unstable == 0
+    found = stability(sweep_loop(CABLE, wrong))
     assert found.endless > 0
     assert found.unstable > 0
 
@@ -86,14 +86,14 @@ def test_a_loop_of_the_wrong_sign_is_unstable():
 def test_motor_gains_beyond_the_period_are_seen():
     """A filter of the motor's disturbance that the period cannot follow makes the inner loop unstable."""
     late = boundary(0.01, **{"sensors.motor_current.latency": 0.006, "control.motor_loop.current_gain": 850.0})
-    assert stability(sweep(CABLE, sampled_loop(late, 50.0))).endless > 0
+    assert stability(sweep_loop(CABLE, sampled_loop(late, 50.0))).endless > 0
 
 
 @pytest.mark.parametrize("name", ["gain_high", "phase", "delay"])
 def test_a_limit_separates_stable_from_unstable(name):
-    swept = sweep(CABLE, LOOP)
-    limit = getattr(margins(swept), name).size
-    change = {"gain_high": scaled, "phase": turned, "delay": later}[name]
+    swept = sweep_loop(CABLE, LOOP)
+    limit = getattr(find_limits(swept), name).size
+    change = {"gain_high": gain_factor, "phase": phase_factor, "delay": delay_factor}[name]
     sides = [change(share * limit) for share in (0.98, 1.03)]
     if name == "phase":
         sides += [change(-share * limit) for share in (0.98, 1.03)]
@@ -114,9 +114,9 @@ def test_a_peak_between_two_frequencies_is_seen(offset):
 
 def test_close_to_the_limit_of_the_endless_cable_an_echo_is_counted():
     """Over the last milliseconds before the cable without an end is unstable, too, the count only grows."""
-    swept = sweep(replace(CABLE, damping=0.1, length=30.0), LOOP)
-    limit = margins(swept).delay.size
-    counts = [stability(swept, later(limit * (1.0 + share))) for share in np.geomspace(1e-3, 0.1, 40)]
+    swept = sweep_loop(replace(CABLE, damping=0.1, length=30.0), LOOP)
+    limit = find_limits(swept).delay.size
+    counts = [stability(swept, delay_factor(limit * (1.0 + share))) for share in np.geomspace(1e-3, 0.1, 40)]
     assert counts[0].endless == 0
     assert counts[-1].endless > 0
     assert all(found.unstable >= 2 for found in counts)
@@ -124,11 +124,11 @@ def test_close_to_the_limit_of_the_endless_cable_an_echo_is_counted():
 
 def test_delay_limit_is_that_of_late_sensors():
     """Both readings of the ROV n periods late is n periods of delay in the loop."""
-    limit = margins(sweep(CABLE, LOOP)).delay.size
+    limit = find_limits(sweep_loop(CABLE, LOOP)).delay.size
     for extra, stable in ((-0.002, True), (0.002, False)):
         age = round(1e3 * (limit + extra)) * 1e-3
         late = {f"sensors.{name}.latency": age for name in ("tip_displacement", "tip_slope")}
-        assert judge_loop(CABLE, sampled_loop(boundary(0.01, **late), 50.0)).stable is stable
+        assert margins_of(CABLE, sampled_loop(boundary(0.01, **late), 50.0)).stable is stable
 
 
 def test_an_outer_law_at_its_own_period():
@@ -154,4 +154,4 @@ def test_lengths_and_thrust_of_a_run():
 
 def test_no_loop_no_margins():
     with pytest.raises(ScenarioError, match="closes a loop"):
-        check(umbilical.load("paper-none"))
+        check_loop(umbilical.load("paper-none"))

@@ -13,20 +13,20 @@ from umbilical.errors import ScenarioError
 from umbilical.faces.margins import conclusion
 from umbilical.interop.python_control import to_control
 from umbilical.stability.grid import (
-    Difference,
+    GridDifference,
     GridJudgement,
     check_count,
-    judge_grid,
+    margins_on_grid,
     on_grid,
     resolved,
     with_grid_echo,
 )
 from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import judge
-from umbilical.stability.limits import margins, scaled
+from umbilical.stability.judgement import margins_at
+from umbilical.stability.limits import find_limits, gain_factor
 from umbilical.stability.margins import margins as report
 from umbilical.stability.matrix import Counted, MatrixCheck, unstable_eigenvalues
-from umbilical.stability.nyquist import Stability, stability, sweep
+from umbilical.stability.nyquist import Stability, stability, sweep_loop
 from umbilical.stability.period import linear_period
 from umbilical.stability.sampled import loop_response, sampled_loop
 
@@ -99,21 +99,21 @@ def test_eigenvalues_count_what_nyquist_counts():
     scenario = umbilical.load("ringdown", {"grid.elements": 12})
     loop = sampled_loop(scenario, 50.0)
     period = linear_period(scenario, loop, 100.0)
-    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period, 12)
-    limit = margins(echoed).gain_high.size
+    echoed, _ = with_grid_echo(sweep_loop(hanging_cable(scenario, 100.0), loop), period, 12)
+    limit = find_limits(echoed).gain_high.size
     for gain, stable in ((0.98 * limit, True), (1.02 * limit, False)):
         assert (unstable_eigenvalues(period.scaled(gain))[0] == 0) is stable
-        assert (stability(echoed, scaled(gain)).unstable == 0) is stable
+        assert (stability(echoed, gain_factor(gain)).unstable == 0) is stable
 
 
 @pytest.mark.parametrize("gain", [2.0, 4.0])
 def test_a_grids_false_echoes_at_the_rov_are_followed(gain):
     """They repeat with the modes and decide whether a mode grows by 1e-5 1/s; too few frequencies missed it."""
     scenario = on_grid(umbilical.load("paper"), 450.0, 25)
-    exact = judge(scenario, 450.0)
+    exact = margins_at(scenario, 450.0)
     period = linear_period(scenario, exact.sweep.loop, 450.0)
     echoed, _ = with_grid_echo(exact.sweep, period, 25)
-    assert stability(echoed, scaled(gain)).unstable == unstable_eigenvalues(period.scaled(gain))[0]
+    assert stability(echoed, gain_factor(gain)).unstable == unstable_eigenvalues(period.scaled(gain))[0]
 
 
 def test_later_readings_in_the_matrix_are_a_delay():
@@ -139,7 +139,7 @@ def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
 def test_on_a_damped_cable_a_grids_own_reflection_is_no_echo(length, damping):
     """Over the exact echo, which fades to nothing, it is as large as one likes: once counted as thousands of poles."""
     scenario = umbilical.load("ringdown", {"cable.damping": damping})
-    exact = judge(scenario, length)
+    exact = margins_at(scenario, length)
     grid = on_grid(scenario, length, 12)
     period = linear_period(grid, exact.sweep.loop, length)
     echoed, _ = with_grid_echo(exact.sweep, period, 12)
@@ -149,7 +149,7 @@ def test_on_a_damped_cable_a_grids_own_reflection_is_no_echo(length, damping):
 
 
 def test_the_finest_grid_must_agree_and_the_next_be_near():
-    at = [GridJudgement(n, Stability(0, 0, None), None, Difference("delay", 1.0, 1.0, d), 1.0)
+    at = [GridJudgement(n, Stability(0, 0, None), None, GridDifference("delay", 1.0, 1.0, d), 1.0)
           for n, d in ((8, 0.5), (16, 0.07), (32, 0.019), (64, 0.03))]  # fmt: skip
     assert resolved(at[:3])
     assert not resolved(at[1:])
@@ -160,7 +160,7 @@ def test_the_finest_grid_must_agree_and_the_next_be_near():
 
 def test_few_grids_that_disagree_leave_margins_unresolved_and_few_that_agree_prove_nothing():
     found = report(umbilical.load("ringdown"), [100.0], elements=(8, 12))
-    close, far = (replace(found.grids[-1], differs=Difference("delay", 1.0, 1.0, size)) for size in (0.01, 0.3))
+    close, far = (replace(found.grids[-1], differs=GridDifference("delay", 1.0, 1.0, size)) for size in (0.01, 0.3))
     assert replace(found, grids=(close,)).resolved is None
     apart = replace(found, grids=(far,))
     assert (apart.resolved, conclusion(apart).decision) == (False, "UNRESOLVED")
@@ -199,8 +199,8 @@ def test_progress_is_told_after_every_part():
 def test_loops_that_are_unstable_both_ways_are_compared_by_poles_and_growth():
     """A short cable whose waves of 100 rad/s some grids carry: they grow there, too, but in fewer modes."""
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": 20.0})
-    exact = judge(scenario, 40.0)
-    grids = tuple(judge_grid(scenario, exact, n) for n in (30, 40))
+    exact = margins_at(scenario, 40.0)
+    grids = tuple(margins_on_grid(scenario, exact, n) for n in (30, 40))
     assert not exact.stable
     for grid in grids:
         assert grid.stability.unstable > 0
@@ -214,8 +214,8 @@ def test_loops_that_are_unstable_both_ways_are_compared_by_poles_and_growth():
 def test_what_is_the_cables_and_what_the_grids(beta):
     """At 100 and 400 nodes the loop seems stable; 1600 nodes carry the waves that the ROV feeds, as a cable does."""
     scenario = umbilical.load("ringdown", {"control.law.slope_gain": beta})
-    exact = judge(scenario, 400.0)
-    grids = tuple(judge_grid(scenario, exact, n) for n in (25, 100, 400))
+    exact = margins_at(scenario, 400.0)
+    grids = tuple(margins_on_grid(scenario, exact, n) for n in (25, 100, 400))
     assert [grid.stability.unstable > 0 for grid in grids] == [False, False, True]
     assert not exact.stable
     assert not resolved(grids)
@@ -229,8 +229,8 @@ def test_what_is_the_cables_and_what_the_grids(beta):
 
 def test_margins_by_matrix_agree_where_the_grid_is_fine_enough():
     scenario = umbilical.load("ringdown")
-    exact = judge(scenario, 400.0)
-    grids = tuple(judge_grid(scenario, exact, n) for n in (16, 64, 128))
+    exact = margins_at(scenario, 400.0)
+    grids = tuple(margins_on_grid(scenario, exact, n) for n in (16, 64, 128))
     assert grids[0].difference > 0.02
     assert grids[0].difference == pytest.approx(abs(grids[0].differs.grid / grids[0].differs.exact - 1.0))
     assert grids[-1].difference < 0.02
@@ -256,8 +256,8 @@ def test_gain_margin_of_python_control_is_ours():
     scenario = umbilical.load("ringdown", {"grid.elements": 12})
     loop = sampled_loop(scenario, 50.0)
     period = linear_period(scenario, loop, 100.0)
-    echoed, _ = with_grid_echo(sweep(hanging_cable(scenario, 100.0), loop), period, 12)
-    limit = margins(echoed).gain_high.size
+    echoed, _ = with_grid_echo(sweep_loop(hanging_cable(scenario, 100.0), loop), period, 12)
+    limit = find_limits(echoed).gain_high.size
     opened = to_control(scenario, length=100.0)["loop"]
     for gain, stable in ((0.99 * limit, True), (1.01 * limit, False)):
         closed = control.feedback(gain * opened, 1, sign=1)

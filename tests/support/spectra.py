@@ -9,7 +9,7 @@ import numpy as np
 from umbilical import Scenario
 from umbilical.engine.linear import linearise_plant
 from umbilical.plant.multistep import EXPLICIT
-from umbilical.stability.impedance import HangingCable, payload_stiffness, waves
+from umbilical.stability.impedance import FixedLengthCable, payload_stiffness, waves_at_rov
 
 
 def step_poles(scenario: Scenario, time: float = 0.0) -> Any:
@@ -30,9 +30,9 @@ def _principal_root(product: complex) -> complex:
     return roots[np.argmin(np.abs(roots - np.exp(product)))]
 
 
-def tip_response(cable: HangingCable, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def tip_response(cable: FixedLengthCable, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Displacement and slope at the ROV per force on it, m/N and 1/N, at complex frequencies p."""
-    echo, down, up = waves(cable, p)
+    echo, down, up = waves_at_rov(cable, p)
     stiffness = payload_stiffness(cable, p)
     wave = 1.0 / (stiffness - up + echo * (stiffness - down))
     return (1.0 + echo) * wave, -(up + echo * down) * wave / cable.tip_tension

@@ -12,17 +12,17 @@ import pytest
 import umbilical
 from umbilical.errors import ScenarioError
 from umbilical.plots import plot_margins
-from umbilical.stability.judgement import judge
+from umbilical.stability.judgement import margins_at
 from umbilical.stability.margins import margins
 from umbilical.stability.sampled import loop_response, sampled_loop
 from umbilical.synthesis.design import _limited_by, _missing, check_design, design
-from umbilical.synthesis.iterate import Limits, Outcome, Side, design_within, side
-from umbilical.synthesis.score import Demands, Effort, Judge
-from umbilical.synthesis.search import Knob, Task, changed, explore, follow, inner_knobs, outer_knobs
-from umbilical.synthesis.trial import attempt, rms_above
+from umbilical.synthesis.iterate import DesignOutcome, Evaluation, Limits, design_within, evaluate_gains
+from umbilical.synthesis.score import Demands, Effort, Scorer
+from umbilical.synthesis.search import DesignTask, Knob, changed, explore, inner_knobs, outer_knobs, refine
+from umbilical.synthesis.trial import rms_above, try_gains
 
 RINGDOWN = umbilical.load("ringdown")
-JUDGE = Judge(RINGDOWN, 400.0, Demands())
+JUDGE = Scorer(RINGDOWN, 400.0, Demands())
 
 
 SLOW_SLOPE = {"control.slope_observer.time_constant": 0.86, "control.disturbance_observer.gain": 80.0}
@@ -49,7 +49,7 @@ def test_a_sound_score_has_the_margins_at_every_length_from_the_shortest_on():
     }
     assert score(gains).sound
     for length in (400.0, 433.0, 500.0):
-        found = judge(RINGDOWN.replace(gains), length, 50.0)
+        found = margins_at(RINGDOWN.replace(gains), length, 50.0)
         assert found.margins is not None
         assert found.margins.meets(10.0 ** (6.0 / 20.0), np.deg2rad(30.0), 2e-3)
 
@@ -64,8 +64,8 @@ def test_the_papers_gains_are_not_sound():
 def test_search_is_deterministic_and_better():
     knobs = [Knob("control.law.slope_gain", 0.05, 50.0), Knob("control.law.damping_gain", 50.0, 1e4)]
     slow = RINGDOWN.replace({"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0})
-    task = Task(slow, knobs, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
-    one, two = (follow(task, explore(task, generations=4)) for _ in range(2))
+    task = DesignTask(slow, knobs, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
+    one, two = (refine(task, explore(task, generations=4)) for _ in range(2))
     assert one == two
     found = JUDGE.score(task.loop(one))
     assert found.sound
@@ -75,10 +75,10 @@ def test_search_is_deterministic_and_better():
 def test_a_ceiling_is_kept_and_costs_something():
     knobs = [Knob("control.law.slope_gain", 0.05, 50.0), Knob("control.law.damping_gain", 50.0, 1e4)]
     slow = RINGDOWN.replace({"control.slope_observer.time_constant": 0.5, "control.disturbance_observer.gain": 2.0})
-    free = Task(slow, knobs, "ringdown", Demands(), 400.0, 50.0)
-    first = JUDGE.score(free.loop(follow(free, explore(free, generations=4))))
+    free = DesignTask(slow, knobs, "ringdown", Demands(), 400.0, 50.0)
+    first = JUDGE.score(free.loop(refine(free, explore(free, generations=4))))
     bound = replace(free, ceilings=Effort(0.5 * first.effort.voltage, np.inf, np.inf))
-    second = JUDGE.score(bound.loop(follow(bound, explore(bound, generations=4))))
+    second = JUDGE.score(bound.loop(refine(bound, explore(bound, generations=4))))
     assert second.sound
     assert second.effort.voltage < 0.51 * first.effort.voltage
     assert second.reflection > first.reflection
@@ -103,14 +103,14 @@ def test_margins_of_a_side_are_those_of_its_report_not_of_the_coarse_search():
         "control.slope_observer.time_constant": 0.6874, "control.slope_observer.damping": 1.581,
         "control.disturbance_observer.gain": 77.94,
     }  # fmt: skip
-    quick = Judge(RINGDOWN, 400.0, Demands(), quick=True)
+    quick = Scorer(RINGDOWN, 400.0, Demands(), quick=True)
     loop = sampled_loop(changed(RINGDOWN, knife_edge), 50.0)
     assert quick.score(loop).sound
     assert not JUDGE.score(loop).sound
-    task = Task(RINGDOWN.replace({"duration": 0.5}), [], "both", Demands(), 400.0, 50.0)
-    found = side(task, knife_edge)
+    task = DesignTask(RINGDOWN.replace({"duration": 0.5}), [], "both", Demands(), 400.0, 50.0)
+    found = evaluate_gains(task, knife_edge)
     assert not found.meets
-    assert any("margins are missed" in words for words in _missing(Outcome({}, found, found, ()), Limits()))
+    assert any("margins are missed" in words for words in _missing(DesignOutcome({}, found, found, ()), Limits()))
 
 
 def test_inner_knobs_leave_room_for_the_robust_terms():
@@ -135,7 +135,7 @@ def test_rms_above_keeps_what_is_fast():
 
 def test_a_trial_is_the_built_in_run():
     short = RINGDOWN.replace({"duration": 1.0, "grid.elements": 8})
-    run, trial = umbilical.simulate(short), attempt(short)
+    run, trial = umbilical.simulate(short), try_gains(short)
     assert trial.tip_peak == run.metrics["tip_peak"]
     assert trial.completed
 
@@ -179,7 +179,7 @@ def test_margins_name_what_the_linear_loop_leaves_out(umbilical_command):
 
 
 def test_circles_hold_the_loop_and_its_resonances_touch_them():
-    swept = judge(RINGDOWN, 400.0).sweep
+    swept = margins_at(RINGDOWN, 400.0).sweep
     centre, radius = swept.circles()
     w = np.linspace(2.0, 2.5, 200_000)
     size = np.abs(loop_response(swept.cable, swept.loop, 1j * w).loop)
@@ -222,7 +222,7 @@ def umbilical_command(capsys):
 
 @pytest.mark.slow
 def test_ringdown_and_the_papers_disturbance_with_one_set_of_gains():
-    attempt(RINGDOWN.replace({"duration": 0.1}))  # compiles, where nothing is
+    try_gains(RINGDOWN.replace({"duration": 0.1}))  # compiles, where nothing is
     begun = process_time()
     found = design(RINGDOWN, "both", inner=True)
     took = process_time() - begun
@@ -265,24 +265,25 @@ def test_rejection_in_the_papers_run_keeps_its_margins():
 
 
 def test_a_limit_that_is_broken_is_said_with_what_was_searched_and_nothing_else_is_blamed():
-    trial = attempt(RINGDOWN.replace({"duration": 1.0, "grid.elements": 8}))
-    before = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
+    trial = try_gains(RINGDOWN.replace({"duration": 1.0, "grid.elements": 8}))
+    before = Evaluation(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
     once, again = (
-        list(_missing(Outcome({}, before, before, limited), Limits(voltage=0.1))) for limited in ((), ("voltage",))
+        list(_missing(DesignOutcome({}, before, before, limited), Limits(voltage=0.1)))
+        for limited in ((), ("voltage",))
     )
     assert not any("thruster" in words or "searches" in words for words in once)
     assert any("voltage" in words and "searches under lower ceilings found no gains" in words for words in again)
     assert not any("thruster" in words for words in again)
     assert any("more thrust" in words for words in once)
-    assert len(list(_missing(Outcome({}, before, before, ()), Limits(chatter=1e3)))) == 1
+    assert len(list(_missing(DesignOutcome({}, before, before, ()), Limits(chatter=1e3)))) == 1
 
 
 def test_a_limit_is_named_only_where_the_search_without_it_was_better():
-    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
-    free, bound = (Side(RINGDOWN, Demands(), score(x), margins(RINGDOWN), trial) for x in (SLOW_SLOPE, {}))
-    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    trial = try_gains(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    free, bound = (Evaluation(RINGDOWN, Demands(), score(x), margins(RINGDOWN), trial) for x in (SLOW_SLOPE, {}))
+    task = DesignTask(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
     for found, named in ((bound, True), (free, False)):
-        outcome = Outcome({}, found, free, ("voltage",))
+        outcome = DesignOutcome({}, found, free, ("voltage",))
         words = list(_limited_by(task, outcome, Limits(), motor_gains_kept=False))
         assert any("limit on voltage" in line for line in words) is named
 
@@ -291,11 +292,11 @@ def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
     from umbilical.synthesis import iterate
 
     tried = []
-    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
-    sides = [Side(RINGDOWN, Demands(0.5, 0.0, 0.0), score(SLOW_SLOPE), margins(RINGDOWN), trial)]
+    trial = try_gains(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    sides = [Evaluation(RINGDOWN, Demands(0.5, 0.0, 0.0), score(SLOW_SLOPE), margins(RINGDOWN), trial)]
     monkeypatch.setattr(iterate, "_round", lambda task, begun, progress: tried.append(task.ceilings) or ({}, sides[0]))
-    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
-    monkeypatch.setattr(Side, "kept", property(lambda side: True))
+    task = DesignTask(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    monkeypatch.setattr(Evaluation, "kept", property(lambda side: True))
     outcome = design_within(task, Limits(voltage=0.5 * trial.voltage_peak), lambda share: None)
     assert outcome.limited == ("voltage",)
     assert [round_.voltage for round_ in tried[:2]] == [
@@ -303,17 +304,17 @@ def test_no_round_follows_one_whose_margins_cannot_be_had(monkeypatch):
         pytest.approx(0.475 * sides[0].score.effort.voltage, rel=1e-3),
     ]
     assert len(tried) == iterate.ROUNDS
-    monkeypatch.setattr(Side, "kept", property(lambda side: False))
+    monkeypatch.setattr(Evaluation, "kept", property(lambda side: False))
     tried.clear()
     assert design_within(task, Limits(voltage=0.1), lambda share: None).limited == ()
     assert len(tried) == 1
 
 
 def test_what_inner_could_do_is_said_where_motor_gains_were_kept():
-    trial = attempt(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
-    now = Side(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
-    task = Task(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
-    outcome = Outcome({}, now, now, ())
+    trial = try_gains(RINGDOWN.replace({"duration": 0.5, "grid.elements": 8}))
+    now = Evaluation(RINGDOWN, Demands(), score({}), margins(RINGDOWN), trial)
+    task = DesignTask(RINGDOWN, [], "both", Demands(), 400.0, 50.0)
+    outcome = DesignOutcome({}, now, now, ())
     kept, chosen = (list(_limited_by(task, outcome, Limits(), motor_gains_kept=kept)) for kept in (True, False))
     assert any("--inner" in words for words in kept)
     assert not any("--inner" in words for words in chosen)

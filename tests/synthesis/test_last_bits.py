@@ -13,8 +13,8 @@ import pytest
 
 import umbilical
 from umbilical.synthesis import search
-from umbilical.synthesis.score import Demands, Judge
-from umbilical.synthesis.search import Task, Values, follow, inner_knobs, outer_knobs
+from umbilical.synthesis.score import Demands, Scorer
+from umbilical.synthesis.search import DesignTask, Values, inner_knobs, outer_knobs, refine
 
 RINGDOWN = umbilical.load("ringdown")
 NEAR = {
@@ -43,21 +43,21 @@ def with_other_bits(monkeypatch: pytest.MonkeyPatch) -> Callable[[int], Values]:
     """Gains of a short local search whose scores all have errors of their own, as large as double poles make them."""
     monkeypatch.setattr(search, "LOCAL_STEPS", 60)
     monkeypatch.setattr("umbilical.synthesis.score.POINTS", 120)
-    exact = Judge.score
+    exact = Scorer.score
 
     def found(seed: int, error: float = 1e-9) -> Values:
         draw = np.random.default_rng(seed)
 
-        def score(judge, loop):
-            s = exact(judge, loop)
+        def score(scorer, loop):
+            s = exact(scorer, loop)
             errors = 1.0 + error * draw.standard_normal(s.trips.size + 2)
             return s._replace(
                 reflection=s.reflection * errors[0], compliance=s.compliance * errors[1], trips=s.trips * errors[2:]
             )
 
-        monkeypatch.setattr(Judge, "score", score)
+        monkeypatch.setattr(Scorer, "score", score)
         knobs = outer_knobs(RINGDOWN, 50.0) + inner_knobs(RINGDOWN)
-        return follow(Task(RINGDOWN, knobs, "both", Demands().beyond(1.0), 400.0, 50.0), NEAR)
+        return refine(DesignTask(RINGDOWN, knobs, "both", Demands().beyond(1.0), 400.0, 50.0), NEAR)
 
     return found
 

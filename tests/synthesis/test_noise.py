@@ -14,11 +14,11 @@ from umbilical.stability.margins import margins
 from umbilical.stability.sampled import loop_response, sampled_loop
 from umbilical.synthesis import iterate
 from umbilical.synthesis.design import _missing
-from umbilical.synthesis.iterate import Limits, Outcome, Side
+from umbilical.synthesis.iterate import DesignOutcome, Evaluation, Limits
 from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, commanded_spectrum, reading_noise, voltage_noise
-from umbilical.synthesis.score import Demands, Judge, Score
-from umbilical.synthesis.search import Knob, Task, explore, follow
-from umbilical.synthesis.trial import attempt
+from umbilical.synthesis.score import Demands, Score, Scorer
+from umbilical.synthesis.search import DesignTask, Knob, explore, refine
+from umbilical.synthesis.trial import try_gains
 
 AT_REST = {"initial.shape": "straight", "grid.elements": 8, "duration": 6.0}
 PUSHED = AT_REST | {"environment.payload_force": [{"kind": "constant", "value": 50.0}]}
@@ -34,8 +34,8 @@ FAST = {
 
 
 def predicted(scenario: Scenario, thrust: float, length: float = 400.0) -> float:
-    judge = Judge(scenario, length, Demands(), quick=True)
-    return voltage_noise(judge, sampled_loop(scenario, 50.0), scenario, [thrust]).rms
+    scorer = Scorer(scenario, length, Demands(), quick=True)
+    return voltage_noise(scorer, sampled_loop(scenario, 50.0), scenario, [thrust]).rms
 
 
 @pytest.mark.parametrize(
@@ -58,7 +58,7 @@ def predicted(scenario: Scenario, thrust: float, length: float = 400.0) -> float
 )
 def test_a_simulation_has_the_noise_that_is_predicted(changes, thrust):
     scenario = umbilical.load("ringdown", changes)
-    assert attempt(scenario).chatter == pytest.approx(predicted(scenario, thrust), rel=0.1)
+    assert try_gains(scenario).chatter == pytest.approx(predicted(scenario, thrust), rel=0.1)
 
 
 def test_noise_grows_in_proportion_where_the_root_is_smooth_and_slower_at_rest():
@@ -73,24 +73,26 @@ def test_noise_grows_in_proportion_where_the_root_is_smooth_and_slower_at_rest()
 def test_the_mean_over_the_phase_of_echoes_is_the_sum_over_resonances(damping):
     """Against the loop with its true echo, on frequencies fine enough for every resonance."""
     scenario = umbilical.load("ringdown", NOISE | {"cable.damping": damping})
-    judge, loop, deviations = (
-        Judge(scenario, 400.0, Demands()),
+    scorer, loop, deviations = (
+        Scorer(scenario, 400.0, Demands()),
         sampled_loop(scenario, 50.0),
         reading_noise(scenario)[:4],
     )
     w = np.linspace(5.0, 9.0, 20_001)
-    opened = loop_response(judge.cable, loop, 1j * w).loop
+    opened = loop_response(scorer.cable, loop, 1j * w).loop
     gains = loop.law.response(np.exp(1j * w * loop.period))[:, 0, :]
     resolved = np.trapezoid(np.abs(gains / (1.0 - opened)[:, None]) ** 2 @ deviations**2, w) * loop.period / np.pi
-    spectrum = np.interp(w, judge.w, commanded_spectrum(judge, loop, deviations))
+    spectrum = np.interp(w, scorer.w, commanded_spectrum(scorer, loop, deviations))
     assert np.trapezoid(spectrum, w) == pytest.approx(resolved, rel=0.01)
 
 
 def test_the_verdict_is_of_the_worst_length_and_thrust():
-    task = Task(umbilical.load("paper", NOISE), [], "both", Demands(), 450.0, 500.0)
+    task = DesignTask(umbilical.load("paper", NOISE), [], "both", Demands(), 450.0, 500.0)
     worst = iterate.worst_noise(task, task.scenario, (0.0, 500.0))
-    judges = [Judge(task.scenario, length, Demands()) for length in (450.0, 475.0, 500.0)]
-    each = [voltage_noise(judge, task.loop({}), task.scenario, [thrust]) for judge in judges for thrust in (0.0, 500.0)]
+    scorers = [Scorer(task.scenario, length, Demands()) for length in (450.0, 475.0, 500.0)]
+    each = [
+        voltage_noise(scorer, task.loop({}), task.scenario, [thrust]) for scorer in scorers for thrust in (0.0, 500.0)
+    ]
     assert worst.thrust == 0.0
     assert worst.rms == pytest.approx(max(each).rms, rel=0.01)
 
@@ -105,9 +107,9 @@ def test_a_resolution_is_noise_of_its_twelfths_root():
 def test_nothing_comes_of_perfect_sensors_ideal_thrusters_and_periods_too_long_for_10_hz():
     assert predicted(umbilical.load("ringdown"), 0.0) == 0.0
     assert predicted(umbilical.load("ringdown", NOISE | {"ideal_thruster": True}), 0.0) == 0.0
-    judge, slow = Judge(umbilical.load("ringdown"), 400.0, Demands()), umbilical.load("ringdown", NOISE)
+    scorer, slow = Scorer(umbilical.load("ringdown"), 400.0, Demands()), umbilical.load("ringdown", NOISE)
     loop = replace(sampled_loop(slow, 50.0), period=0.06)
-    assert voltage_noise(judge, loop, slow, [0.0]) == NO_NOISE
+    assert voltage_noise(scorer, loop, slow, [0.0]) == NO_NOISE
 
 
 @pytest.mark.parametrize("spread", [1e-6, 1e-3, 0.1, 30.0])
@@ -132,13 +134,13 @@ SLOW = {"control.slope_observer.time_constant": 0.5, "control.disturbance_observ
 @pytest.mark.slow
 def test_a_search_keeps_a_ceiling_of_noise_pays_for_it_and_finds_the_least():
     noisy = umbilical.load("ringdown", NOISE | SLOW)
-    free = Task(noisy, THREE, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
-    judge = free.judge()
+    free = DesignTask(noisy, THREE, "ringdown", Demands().beyond(1.0), 400.0, 50.0)
+    scorer = free.scorer()
 
-    def found(task: Task) -> tuple[float, Score]:
-        gains = follow(task, explore(task, generations=4))
-        noise = voltage_noise(judge, task.loop(gains), noisy.replace(gains), [0.0, 50.0]).rms
-        return noise, judge.score(task.loop(gains))
+    def found(task: DesignTask) -> tuple[float, Score]:
+        gains = refine(task, explore(task, generations=4))
+        noise = voltage_noise(scorer, task.loop(gains), noisy.replace(gains), [0.0, 50.0]).rms
+        return noise, scorer.score(task.loop(gains))
 
     loud, open_ = found(free)
     least, calm = found(replace(free, least_noise=True))
@@ -150,18 +152,18 @@ def test_a_search_keeps_a_ceiling_of_noise_pays_for_it_and_finds_the_least():
     assert bound.reflection > open_.reflection
 
 
-TRIAL = attempt(umbilical.load("ringdown", {"duration": 0.5, "grid.elements": 8}))
+TRIAL = try_gains(umbilical.load("ringdown", {"duration": 0.5, "grid.elements": 8}))
 
 
-def side(noise: float) -> Side:
+def side(noise: float) -> Evaluation:
     scenario = umbilical.load("ringdown", NOISE)
-    task = Task(scenario, [], "both", Demands(), 400.0, 50.0)
+    task = DesignTask(scenario, [], "both", Demands(), 400.0, 50.0)
     gains = FAST
     demands = Demands(0.5, 0.0, 0.0)
-    return Side(
+    return Evaluation(
         scenario,
         demands,
-        task.judge().score(task.loop(gains)),
+        task.scorer().score(task.loop(gains)),
         margins(scenario),
         TRIAL,
         VoltageNoise(noise, 0.0, 400.0),
@@ -170,11 +172,11 @@ def side(noise: float) -> Side:
 
 def test_noise_above_its_limit_is_missing_and_the_search_for_the_least_is_told():
     loud, least = side(5.0), side(4.0)
-    said = list(_missing(Outcome({}, loud, loud, (), least), Limits()))
+    said = list(_missing(DesignOutcome({}, loud, loud, (), least), Limits()))
     assert any("noise 5 V above the limit of 3 V" in words for words in said)
     assert any("the least noise of a voltage ended at 4 V, margins kept" in words for words in said)
     assert not any("thruster" in words for words in said)
-    assert list(_missing(Outcome({}, side(2.0), loud, (), least), Limits())) == []
+    assert list(_missing(DesignOutcome({}, side(2.0), loud, (), least), Limits())) == []
 
 
 def test_what_the_noise_explains_is_no_chatter():
@@ -192,8 +194,8 @@ def test_the_least_noise_is_searched_for_where_the_limit_is_not_reached(monkeypa
         return {}, side(4.0 if task.least_noise else 5.0)
 
     monkeypatch.setattr(iterate, "_round", one_round)
-    monkeypatch.setattr(Side, "kept", property(lambda side: True))
-    task = Task(umbilical.load("ringdown", NOISE), [], "both", Demands(), 400.0, 50.0)
+    monkeypatch.setattr(Evaluation, "kept", property(lambda side: True))
+    task = DesignTask(umbilical.load("ringdown", NOISE), [], "both", Demands(), 400.0, 50.0)
     outcome = iterate.design_within(task, Limits(), lambda share: None)
     assert outcome.side.noise.rms == 4.0
     assert asked[0] == (pytest.approx(2.94), False)
@@ -214,6 +216,6 @@ def test_design_for_noisy_sensors_keeps_the_voltages_calm_with_all_margins():
     assert found.after.kept
     assert found.after.score.reflection < found.before.score.reflection
     seeds = [umbilical.load("ringdown", NOISE | {"seed": seed}).replace(found.values) for seed in (1, 2)]
-    assert all(attempt(scenario).chatter < 3.0 for scenario in seeds)
+    assert all(try_gains(scenario).chatter < 3.0 for scenario in seeds)
     short = {"duration": 15.0}
-    assert attempt(umbilical.load("ringdown", NOISE | FAST | short)).chatter > 100.0
+    assert try_gains(umbilical.load("ringdown", NOISE | FAST | short)).chatter > 100.0

@@ -10,10 +10,10 @@ from umbilical.synthesis.design import design
 from umbilical.synthesis.iterate import design_within
 from umbilical.synthesis.periods import pace, paced
 from umbilical.synthesis.score import Demands
-from umbilical.synthesis.search import Task
+from umbilical.synthesis.search import DesignTask
 
 RINGDOWN = umbilical.load("ringdown")
-BASE = Task(RINGDOWN, (), "ringdown", Demands(), 400.0, 50.0, present=RINGDOWN)
+BASE = DesignTask(RINGDOWN, (), "ringdown", Demands(), 400.0, 50.0, present=RINGDOWN)
 WAVE_SPEED = 50.0
 
 

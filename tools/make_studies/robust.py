@@ -8,7 +8,7 @@ import numpy as np
 from words import item, millimetres, paragraph, rows_of
 
 from umbilical.scenario import Scenario
-from umbilical.stability.judgement import judge, usual_lengths
+from umbilical.stability.judgement import margins_at, usual_lengths
 from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult
 from umbilical.studies.statistics import against, at, beyond, interval_text, percentage, ratios
@@ -71,7 +71,7 @@ def loops(result: StudyResult, noisy: StudyResult) -> str:
 
 def margins(scenario: Scenario) -> list[str]:
     """Smallest gain, phase and delay margin over the lengths of a run, or how many poles are unstable."""
-    judged = [judge(scenario, length) for length in usual_lengths(scenario)]
+    judged = [margins_at(scenario, length) for length in usual_lengths(scenario)]
     if unstable := max(one.stability.unstable for one in judged):
         return [f"unstable ({unstable} poles)", "-", "-"]
     sound = [one.margins for one in judged if one.margins is not None]

@@ -77,7 +77,7 @@ def tension_at_ends(
     return tension(length, net_gravity, hung), tension(0.0 * length, net_gravity, hung)
 
 
-def residual(energies: np.ndarray, works: np.ndarray) -> np.ndarray:
+def balance_residual(energies: np.ndarray, works: np.ndarray) -> np.ndarray:
     """Energy less its start and all work done on it since, J, shape (samples,).
 
     Args:
@@ -98,4 +98,4 @@ def scale_of(energies: np.ndarray, works: np.ndarray) -> float:
 def relative_residual(energies: np.ndarray, works: np.ndarray) -> float:
     """Largest residual over :func:`scale_of`; 0 for a cable that never moves."""
     scale = scale_of(energies, works)
-    return float(np.abs(residual(energies, works)).max() / scale) if scale > 0.0 else 0.0
+    return float(np.abs(balance_residual(energies, works)).max() / scale) if scale > 0.0 else 0.0

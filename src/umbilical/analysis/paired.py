@@ -74,17 +74,17 @@ def ranks(share: float, size: int) -> tuple[int, int]:
     return int(np.searchsorted(below, _TAIL)), int(np.searchsorted(below, 1.0 - _TAIL)) + 1
 
 
-def exceedance(values: np.ndarray, limit: float) -> Estimate:
+def exceedance_probability(values: np.ndarray, limit: float) -> Estimate:
     """Probability that a value exceeds a limit, with its exact interval.
 
-    >>> exceedance(np.zeros(100), 1.0).value, round(exceedance(np.zeros(100), 1.0).high, 3)
+    >>> exceedance_probability(np.zeros(100), 1.0).value, round(exceedance_probability(np.zeros(100), 1.0).high, 3)
     (0.0, 0.036)
     """
     sound = values[~np.isnan(values)]
-    return share(int(np.count_nonzero(sound > limit)), sound.size)
+    return proportion(int(np.count_nonzero(sound > limit)), sound.size)
 
 
-def share(count: float, of: int) -> Estimate:
+def proportion(count: float, of: int) -> Estimate:
     """A share with the interval of Clopper and Pearson (1934); all of it open where nothing was seen.
 
     Halves may be counted, for ties: the bounds grow with the count, and lie between those of its neighbours.
@@ -112,7 +112,7 @@ def compare(values: np.ndarray, reference: np.ndarray) -> Comparison:
         ratio = np.where(equal, 1.0, one / other)
         difference = np.where(equal, 0.0, one - other)
     wins = float(np.count_nonzero(one < other) + 0.5 * np.count_nonzero(equal))
-    return Comparison(one.size, quantile(ratio, 0.5), quantile(difference, 0.5), share(wins, one.size))
+    return Comparison(one.size, quantile(ratio, 0.5), quantile(difference, 0.5), proportion(wins, one.size))
 
 
 def _rank(share: float, size: int) -> int:

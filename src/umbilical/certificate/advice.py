@@ -12,10 +12,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.certificate.conditions import SLACK, rates
+from umbilical.certificate.conditions import SLACK, decay_rates
 from umbilical.certificate.search import best_weights
-from umbilical.certificate.setting import Loop, Motion, sampled, slab_edges
-from umbilical.certificate.solve import Task, attempt
+from umbilical.certificate.setting import Loop, Payout, sampled, slab_edges
+from umbilical.certificate.solve import ProofTask, find_and_prove
 from umbilical.errors import Problem
 from umbilical.relations.tension import tension
 from umbilical.scenario.winch import Winch
@@ -39,7 +39,7 @@ class Range(NamedTuple):
     high: float
 
 
-def fixes(loop: Loop, task: Task) -> tuple[Problem, ...]:
+def fixes(loop: Loop, task: ProofTask) -> tuple[Problem, ...]:
     """What was proved to mend it: a ``control.law.slope_gain``, else a slower winch, else nothing."""
     tried, rate = _sampled(loop, task.motion)
     found = _sampled_range(loop, task.motion, tried, rate)
@@ -48,11 +48,11 @@ def fixes(loop: Loop, task: Task) -> tuple[Problem, ...]:
     return tuple(filter(None, (gain, slower)))
 
 
-def _gain(loop: Loop, task: Task, found: Range) -> Problem | None:
+def _gain(loop: Loop, task: ProofTask, found: Range) -> Problem | None:
     """The gain next to the scenario's that is proved, if one is."""
 
     def certified(beta: float) -> bool:
-        return attempt(loop._replace(beta=beta), task).certified
+        return find_and_prove(loop._replace(beta=beta), task).certified
 
     too_small = loop.beta < np.sqrt(max(found.low, 1e-300) * min(found.high, 1e300))
     low = max(found.low, loop.beta) if too_small else found.low
@@ -67,7 +67,7 @@ def _gain(loop: Loop, task: Task, found: Range) -> Problem | None:
     return None
 
 
-def _slower_winch(loop: Loop, task: Task, best: float) -> Problem | None:
+def _slower_winch(loop: Loop, task: ProofTask, best: float) -> Problem | None:
     """The fastest of some slower winches that is proved, with the scenario's gain or else the one that decays best."""
     for share in SLOWER:
         for beta in (loop.beta, _rounded(best, 1.0)):
@@ -75,7 +75,7 @@ def _slower_winch(loop: Loop, task: Task, best: float) -> Problem | None:
             winch = task.winch.model_copy(update=changes)
             edges = slab_edges(winch, float(task.edges[-1]))
             slow = task._replace(winch=winch, edges=edges, motion=sampled(winch, loop.g, edges))
-            if changes and attempt(loop._replace(beta=beta), slow).certified:
+            if changes and find_and_prove(loop._replace(beta=beta), slow).certified:
                 return _winch(loop, task.motion, changes, beta)
     return None
 
@@ -87,27 +87,27 @@ def _slowed(winch: Winch, share: float) -> dict[str, float]:
     return {k: _rounded(v * share**p, -1.0 if p > 0.0 else 1.0) for k, (v, p) in found.items() if v is not None}
 
 
-def best_rate(loop: Loop, motion: Motion, *, enough: float = np.inf) -> float:
+def best_rate(loop: Loop, motion: Payout, *, enough: float = np.inf) -> float:
     """The largest smallest rate of V over the samples, 1/s, or one above ``enough``.
 
     Minus infinity where K1, K2 and K4 leave no room.
     """
     found = best_weights(loop, motion, enough=enough)
-    return -np.inf if found is None else float(rates(loop, motion, *found).min())
+    return -np.inf if found is None else float(decay_rates(loop, motion, *found).min())
 
 
-def _sampled(loop: Loop, motion: Motion) -> tuple[np.ndarray, np.ndarray]:
+def _sampled(loop: Loop, motion: Payout) -> tuple[np.ndarray, np.ndarray]:
     """Gains over eight decades, m/s, and the rate at three samples of each slab, 1/s."""
     slowest_wave = float(np.sqrt(tension(0.0, motion.net.min(), loop.hanging) / loop.rho))
     tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
     return tried, np.array([best_rate(loop._replace(beta=beta), _thin(motion)) for beta in tried])
 
 
-def _thin(motion: Motion) -> Motion:
-    return Motion(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
+def _thin(motion: Payout) -> Payout:
+    return Payout(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
 
 
-def _sampled_range(loop: Loop, motion: Motion, tried: np.ndarray, rate: np.ndarray) -> Range | None:
+def _sampled_range(loop: Loop, motion: Payout, tried: np.ndarray, rate: np.ndarray) -> Range | None:
     """From the smallest to the largest gain with a positive rate at these samples."""
 
     def decays(beta: float) -> bool:
@@ -146,7 +146,7 @@ def _rounded(gain: float, way: float) -> float:
     return float(context.create_decimal_from_float(gain))
 
 
-def _range(loop: Loop, motion: Motion, proved: Range, too_small: bool) -> Problem:
+def _range(loop: Loop, motion: Payout, proved: Range, too_small: bool) -> Problem:
     low, high = (f"{gain:.{DIGITS}g}" for gain in proved)
     edge, near = (f"must be at least {low} m/s", low) if too_small else (f"must not exceed {high} m/s", high)
     top = f" to {high} m/s" if np.isfinite(proved.high) else " m/s upward"
@@ -160,7 +160,7 @@ def _range(loop: Loop, motion: Motion, proved: Range, too_small: bool) -> Proble
     )
 
 
-def _single(loop: Loop, motion: Motion, gain: float) -> Problem:
+def _single(loop: Loop, motion: Payout, gain: float) -> Problem:
     return Problem(
         "control.law.slope_gain",
         f"{loop.beta:g} m/s",
@@ -170,7 +170,7 @@ def _single(loop: Loop, motion: Motion, gain: float) -> Problem:
     )
 
 
-def _winch(loop: Loop, motion: Motion, changes: dict[str, float], beta: float) -> Problem:
+def _winch(loop: Loop, motion: Payout, changes: dict[str, float], beta: float) -> Problem:
     slower = " and ".join(f"winch.{key} = {value:g}" for key, value in changes.items())
     gain = "" if beta == loop.beta else f", with control.law.slope_gain = {beta:g}"
     return Problem(
@@ -182,7 +182,7 @@ def _winch(loop: Loop, motion: Motion, changes: dict[str, float], beta: float) -
     )
 
 
-def _what_the_winch_does(motion: Motion) -> str:
+def _what_the_winch_does(motion: Payout) -> str:
     fastest_in, fastest_out, jerk = -float(motion.v.min()), float(motion.v.max()), float(motion.relative_jerk.min())
     parts = []
     if fastest_in > 0.0:

@@ -148,11 +148,11 @@ def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -
     def jump(at: float, value: float) -> float:
         return (np.sqrt(value * stretch.get(at, 1.0)) + steps.get(at, 0.0)) ** 2
 
-    values = np.array([value, *march(certificate, grid, certificate.residual, value, jump)])
+    values = np.array([value, *advance_bound(certificate, grid, certificate.residual, value, jump)])
     return values[np.searchsorted(grid, instants)]
 
 
-def march(
+def advance_bound(
     certificate: Certificate,
     grid: np.ndarray,
     power: float | np.ndarray,

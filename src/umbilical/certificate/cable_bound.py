@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.certificate.bounds import march
+from umbilical.certificate.bounds import advance_bound
 from umbilical.certificate.loads import Loads
 from umbilical.certificate.records import Certificate, Start
 from umbilical.certificate.setting import Loop
@@ -37,7 +37,7 @@ def cable_bound(certificate: Certificate, t: np.ndarray, start: Start | None = N
     pull = tension(0.0, certificate.ranges.net.high.max(axis=1)[slab], loop.hanging)
     fed = pull / (2.0 * loop.beta) * error_bound(loop, grid, begin, certificate.loads) ** 2
     stretch = dict(zip(certificate.edges.tolist(), certificate.stretch.tolist(), strict=True))
-    steps = march(
+    steps = advance_bound(
         certificate, grid, fed + certificate.cable_residual, begin.cable, lambda at, v: v * stretch.get(at, 1.0)
     )
     return np.array([begin.cable, *steps])[np.searchsorted(grid, t)]

@@ -8,10 +8,10 @@ from umbilical.certificate.conditions import conditions, relative_margins, tight
 from umbilical.certificate.ideal_loop import energy_rate
 from umbilical.certificate.loads import loads_of
 from umbilical.certificate.paper_conditions import paper_conditions
-from umbilical.certificate.ranges import ranges_of, stretch_of
+from umbilical.certificate.ranges import growth_at_edges, ranges_of
 from umbilical.certificate.records import Certificate
-from umbilical.certificate.setting import loop_of, sampled, slab_edges, stopped
-from umbilical.certificate.solve import Task, attempt
+from umbilical.certificate.setting import ideal_constants, sampled, slab_edges, stopped
+from umbilical.certificate.solve import ProofTask, find_and_prove
 from umbilical.errors import expect
 from umbilical.relations.water import in_water
 from umbilical.scenario.control import Nominal
@@ -41,14 +41,14 @@ def certify(scenario: Scenario, *, fix: bool = True) -> Certificate:
     (True, 0.0125)
     """
     expect(scenario, "Scenario", "load")
-    loop = loop_of(scenario)
+    loop = ideal_constants(scenario)
     edges = slab_edges(scenario.winch, scenario.duration)
     motion = sampled(scenario.winch, scenario.environment.gravity, edges)
     ranges = ranges_of(scenario.winch, loop.g, edges)
     dragged = in_water(scenario.cable, scenario.payload, scenario.environment).body_linear
     loads = loads_of(scenario.environment, float(ranges.length.high.max()), dragged)
-    task = Task(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
-    found = attempt(loop, task)
+    task = ProofTask(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
+    found = find_and_prove(loop, task)
     weights, proved, proof = found
     spent, residual, cable_residual = residual_of(loop, ranges, weights, float(proved.min()), loads)
     stated = conditions(loop, motion, weights, proved, task.vessel_moves)
@@ -61,7 +61,7 @@ def certify(scenario: Scenario, *, fix: bool = True) -> Certificate:
         weights=weights,
         edges=edges,
         rates=proved,
-        stretch=stretch_of(loop, scenario.winch, weights, edges),
+        stretch=growth_at_edges(loop, scenario.winch, weights, edges),
         ranges=ranges,
         fixed_length_rate=best_rate(loop, stopped(motion, loop.g)),
         exact_rate=energy_rate(loop, float(motion.l.max())),

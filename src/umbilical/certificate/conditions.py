@@ -13,14 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.certificate.records import Inequality, Weights
-from umbilical.certificate.setting import Loop, Motion
+from umbilical.certificate.setting import Loop, Payout
 from umbilical.relations.tension import Hanging, fading_tension, tension, tension_gain
 
 Array = np.ndarray
 Real = Any  # a float, an array or an interval
 
 
-class Case(NamedTuple):
+class Terms(NamedTuple):
     """What the conditions are about, as numbers, arrays or intervals.
 
     Attributes:
@@ -43,15 +43,15 @@ class Case(NamedTuple):
     foot: Real
 
 
-def case_of(loop: Loop, weights: Weights, motion: Motion) -> Case:
+def terms_of(loop: Loop, weights: Weights, motion: Payout) -> Terms:
     """The case of a winch in motion; loop, weights and motion are of one kind of numbers."""
     hung, length, net = loop.hanging, motion.l, motion.net
     reach = weights.vessel + weights.cross * length
     top, foot = tension(length, net, hung), tension(0.0 * length, net, hung)
-    return Case(loop, weights, hung, length, motion.v, net, motion.jerk, reach, top, foot)
+    return Terms(loop, weights, hung, length, motion.v, net, motion.jerk, reach, top, foot)
 
 
-def sides(case: Case, rate: Real, vessel_moves: bool) -> Iterator[tuple[str, str, Real, Real, str, float]]:
+def sides(case: Terms, rate: Real, vessel_moves: bool) -> Iterator[tuple[str, str, Real, Real, str, float]]:
     """The conditions with one number on each side: name, equation, left, right, unit, x/l; "<=" where equality holds.
 
     K0 and K5 hold for all x and are in :data:`ALONG`.
@@ -69,30 +69,30 @@ def sides(case: Case, rate: Real, vessel_moves: bool) -> Iterator[tuple[str, str
         yield "K6", "th <= k_s", rate, loop.k_s, "1/s", 1.0
 
 
-def _weights(case: Case, rate: Real) -> Iterator[Real]:
+def _weights(case: Terms, rate: Real) -> Iterator[Real]:
     """lam, eta and everything else that makes V a sum of squares; K0 then makes V1 + V2 one."""
     of = case.loop
     yield from (x for x in (of.rho, of.m, of.beta, of.k_a, of.k_s, of.vs) if x is not None)
     yield from (case.weights.cross, case.weights.boundary, case.foot)
 
 
-def _k0(case: Case, rate: Real) -> Iterator[Real]:
+def _k0(case: Terms, rate: Real) -> Iterator[Real]:
     """T - rho Q^2 at both ends; the line density, which *weights* holds above 0, makes it concave."""
     for pull, q in ((case.top, case.weights.vessel), (case.foot, case.reach)):
         yield pull - case.loop.rho * q**2
 
 
-def _k5(case: Case, rate: Real) -> Iterator[Real]:
+def _k5(case: Terms, rate: Real) -> Iterator[Real]:
     """A, C and AC - B^2 of M - th/2 N at both ends: A does not depend on x, B and C are lines."""
     for a, b, c in (_entries(case, end, rate) for end in (0, 1)):
         yield from (a, c, a * c - b**2)  # without A and C, A = B = 0 would let any C pass
 
 
-ALONG: dict[str, Callable[[Case, Real], Iterator[Real]]] = {"weights": _weights, "K0": _k0, "K5": _k5}
+ALONG: dict[str, Callable[[Terms, Real], Iterator[Real]]] = {"weights": _weights, "K0": _k0, "K5": _k5}
 """Conditions for all x at once: what must not be negative, in K5, or must be positive."""
 
 
-def _entries(case: Case, end: int, rate: Real) -> tuple[Real, Real, Real]:
+def _entries(case: Terms, end: int, rate: Real) -> tuple[Real, Real, Real]:
     """Entries 11, 12, 22 of M - th/2 N at the vessel, 0, or the ROV, 1."""
     rho, c, lam, net = case.loop.rho, case.loop.c, case.weights.cross, case.net
     above, q = ((case.length, case.weights.vessel), (0.0 * case.length, case.reach))[end]
@@ -116,7 +116,7 @@ SLACK = 1e-3
 """Share of a bound that is left free, so that interval arithmetic can decide without splitting for ever."""
 
 
-def extent(loop: Loop, motion: Motion) -> Extent:
+def extent(loop: Loop, motion: Payout) -> Extent:
     """The room that K1, K2 and K4 leave.
 
     Between samples the speed may fall a little lower, unless it is exactly 0 there, as at both ends of a smooth law.
@@ -128,21 +128,21 @@ def extent(loop: Loop, motion: Motion) -> Extent:
     return Extent(reach, max(0.0, SLACK * largest - lowest))
 
 
-def largest_cross(motion: Motion, room: Extent, vessel: Real) -> Array:
+def largest_cross(motion: Payout, room: Extent, vessel: Real) -> Array:
     """Largest lam/gam for each lam x0/gam, 1/s; ``vessel`` has any shape."""
     share = room.reach.ravel() - np.asarray(vessel)[..., None]
     return (share / motion.l.ravel()).min(axis=-1)
 
 
-def rates(loop: Loop, motion: Motion, cross: Real, vessel: Real) -> Array:
+def decay_rates(loop: Loop, motion: Payout, cross: Real, vessel: Real) -> Array:
     """Best th that K5 allows at every sample, 1/s; minus infinity where K0 fails.
 
     ``cross`` and ``vessel`` broadcast against the arrays of ``motion``.
     """
-    return np.minimum(*_rates_at_ends(case_of(loop, Weights(cross, vessel, np.nan), motion)))
+    return np.minimum(*_rates_at_ends(terms_of(loop, Weights(cross, vessel, np.nan), motion)))
 
 
-def _rates_at_ends(case: Case) -> Iterator[Array]:
+def _rates_at_ends(case: Terms) -> Iterator[Array]:
     """The smaller root of ``det(M - th/2 N) = 0`` at the vessel, then at the ROV."""
     rho = case.loop.rho
     for end, pull, q in ((0, case.top, case.weights.vessel), (1, case.foot, case.reach)):
@@ -161,7 +161,7 @@ def rate_limit(loop: Loop) -> float:
     return of_boundary if loop.k_s is None else min(loop.k_s, of_boundary)
 
 
-def boundary_weight(loop: Loop, motion: Motion, rate: float) -> float:
+def boundary_weight(loop: Loop, motion: Payout, rate: float) -> float:
     """Smallest eta/gam that lets K3 and K6 carry a rate; small, because loads at the ROV are weighed with it."""
     needed = tension(0.0, motion.net.max(), loop.hanging) / (2.0 * loop.beta)
     return float(needed / (loop.k_a - 0.5 * loop.m * max(rate, 0.0)) * (1.0 + SLACK))
@@ -180,7 +180,7 @@ class Condition(NamedTuple):
 
 
 def conditions(
-    loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool = False
+    loop: Loop, motion: Payout, weights: Weights, proved: Array, vessel_moves: bool = False
 ) -> tuple[Condition, ...]:
     """K0 to K6 at every sample, for the proved rate of each slab; K4 must hold strictly where the vessel moves."""
     shape = motion.t.shape
@@ -193,9 +193,9 @@ def conditions(
 
 
 def _conditions(
-    loop: Loop, motion: Motion, weights: Weights, proved: Array, vessel_moves: bool
+    loop: Loop, motion: Payout, weights: Weights, proved: Array, vessel_moves: bool
 ) -> Iterator[tuple[Any, ...]]:
-    case = case_of(loop, weights, motion)
+    case = terms_of(loop, weights, motion)
     ends = tuple(_rates_at_ends(case))
     wave, *others = sides(case, float(np.nan_to_num(proved).max()), vessel_moves)
     yield wave
@@ -212,7 +212,7 @@ def _lowered(sampled: Array, proved: Array) -> Array:
     return sampled - excess[:, None]
 
 
-def tightest(condition: Condition, motion: Motion) -> Inequality:
+def tightest(condition: Condition, motion: Payout) -> Inequality:
     """The sample with the smallest margin."""
     at = np.unravel_index(np.argmin(condition.right - condition.left), motion.t.shape)
     place = {"x": float(condition.sigma * motion.l[at]), "t": float(motion.t[at])}
@@ -232,6 +232,6 @@ def relative_margins(found: tuple[Condition, ...]) -> dict[str, Array]:
     return margins
 
 
-def _wave_speed_squared(loop: Loop, motion: Motion) -> Array:
+def _wave_speed_squared(loop: Loop, motion: Payout) -> Array:
     """T/rho at the ROV, m2/s2."""
     return tension(0.0, motion.net, loop.hanging) / loop.rho

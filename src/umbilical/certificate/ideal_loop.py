@@ -26,7 +26,7 @@ def energy_rate(loop: Loop, length: float) -> float:
     """Rate at which V of the ideal loop decays in the long run, 1/s: twice the decay of its slowest mode.
 
     Args:
-        loop: constants of the ideal loop, :func:`umbilical.certificate.setting.loop_of`.
+        loop: constants of the ideal loop, :func:`umbilical.certificate.setting.ideal_constants`.
         length: of the cable, m, held; the winch does not accelerate.
     """
     slowest = np.max([mode.real for mode in (*cable_modes(loop, length), *law_modes(loop))])

@@ -48,28 +48,36 @@ def loads_of(environment: Environment, longest: float, drag: float = 0.0) -> Loa
         drag: D_l of the ROV, N s/m: in a steady current at a steady depth ``D_l u`` is a constant force.
     """
     motion = along(environment)
-    velocity = rate(motion) + (_FADE_SLOPE * size(motion) / environment.vessel_ramp if environment.vessel_ramp else 0.0)
-    of_cable = sum(size(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
+    fading = _FADE_SLOPE * largest_value(motion) / environment.vessel_ramp if environment.vessel_ramp else 0.0
+    velocity = largest_rate(motion) + fading
+    of_cable = sum(largest_value(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
     carried = drag * float(speeds_at(environment, np.array(longest)))
     force = (*environment.payload_force, *([Constant(kind="constant", value=carried)] if carried else []))
-    return Loads(size(force), rate(force), jumps(force), longest * of_cable**2, size(motion), velocity)
+    return Loads(
+        largest_value(force),
+        largest_rate(force),
+        jumps_of(force),
+        longest * of_cable**2,
+        largest_value(motion),
+        velocity,
+    )
 
 
-def size(signal: Signal) -> float:
+def largest_value(signal: Signal) -> float:
     """Bound of |signal|, in its unit.
 
-    >>> size((Constant(kind="constant", value=-2.0), Sine(kind="sine", amplitude=3.0, frequency=2.0)))
+    >>> largest_value((Constant(kind="constant", value=-2.0), Sine(kind="sine", amplitude=3.0, frequency=2.0)))
     5.0
     """
     return float(sum(_size(term) for term in signal))
 
 
-def rate(signal: Signal) -> float:
+def largest_rate(signal: Signal) -> float:
     """Bound of |d signal/dt| between its jumps, in its unit per second; infinite for a bell with a cusp."""
     return float(sum(_rate(term) for term in signal))
 
 
-def jumps(signal: Signal) -> tuple[tuple[float, float], ...]:
+def jumps_of(signal: Signal) -> tuple[tuple[float, float], ...]:
     """Instants at which the signal jumps, increasing, s, each with a bound of how far, in its unit."""
     found: dict[float, float] = {}
     for term in signal:

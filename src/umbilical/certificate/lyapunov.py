@@ -22,7 +22,7 @@ Array = np.ndarray
 _POINTS, _SHARES = np.polynomial.legendre.leggauss(3)
 
 
-class Fields(NamedTuple):
+class CableFields(NamedTuple):
     """Fields at quadrature points; arrays (samples, points) unless said otherwise.
 
     Attributes:
@@ -48,7 +48,7 @@ class Fields(NamedTuple):
         return (density * self.weight).sum(axis=1)
 
 
-def read_fields(scenario: Scenario, run: Mapping[str, Array]) -> Fields:
+def read_fields(scenario: Scenario, run: Mapping[str, Array]) -> CableFields:
     """Slope, velocity and tension at three Gauss points between every two stored nodes.
 
     Args:
@@ -68,7 +68,7 @@ def read_fields(scenario: Scenario, run: Mapping[str, Array]) -> Fields:
     hung, above = hanging_of(scenario.cable, scenario.payload, scenario.environment), (1.0 - points) * length
     pull, changing = tension(above, net, hung), inertial_tension(above, net, hung)
     gain = tension_gain(1.0, net, hung)
-    return Fields(points * length, share * length, pull, changing, gain, p(points), w(points))
+    return CableFields(points * length, share * length, pull, changing, gain, p(points), w(points))
 
 
 def cable_function(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> Array:
@@ -88,7 +88,7 @@ def boundary_function(scenario: Scenario, run: Mapping[str, Array], weights: Wei
     return 0.5 * weights.boundary * value
 
 
-def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
+def cable_function_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
     """Every term of d(V1 + V2)/dt with gam = 1, W, each of shape (time,); their sum is the rate.
 
     Args:
@@ -124,7 +124,7 @@ def cable_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) 
     }
 
 
-def boundary_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
+def boundary_function_rates(scenario: Scenario, run: Mapping[str, Array], weights: Weights) -> dict[str, Array]:
     """Every term of dV3/dt in the ideal loop with its disturbance observer, W, each of shape (time,)."""
     observer = scenario.control.disturbance_observer
     assert observer is not None

@@ -13,20 +13,20 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.certificate.records import Inequality, Weights
-from umbilical.certificate.setting import Loop, Motion
+from umbilical.certificate.setting import Loop, Payout
 from umbilical.relations.tension import inertial_tension, tension, tension_gain
 
 QUARTER = 0.25
 
 
-def paper_conditions(loop: Loop, motion: Motion, weights: Weights, loaded: bool) -> tuple[Inequality, ...]:
+def paper_conditions(loop: Loop, motion: Payout, weights: Weights, loaded: bool) -> tuple[Inequality, ...]:
     """The seven conditions ``0 <= iota``, each at the sample where it is smallest; ``loaded``: f is not zero."""
     found = _conditions(loop, motion, weights, loaded)
     return tuple(_smallest(f"iota_{k}", text, unit, motion, iota) for k, (text, unit, iota) in enumerate(found, 1))
 
 
 def _conditions(
-    loop: Loop, motion: Motion, weights: Weights, loaded: bool
+    loop: Loop, motion: Payout, weights: Weights, loaded: bool
 ) -> Iterator[tuple[str, str, np.ndarray | float]]:
     rho, beta, c, k_a, v, length = loop.rho, loop.beta, loop.c, loop.k_a, motion.v, motion.l
     x = np.stack([np.zeros_like(length), length])  # iota_2 is a line in x
@@ -63,14 +63,14 @@ def _conditions(
     yield "eta [1/vs - 1/(k_s vs sigma_3) - 1/sigma_4]", "m/(N s)", eta * (1.0 - 2.0 * QUARTER) / loop.vs
 
 
-def _largest_lambda(loop: Loop, motion: Motion, foot: np.ndarray) -> float:
+def _largest_lambda(loop: Loop, motion: Payout, foot: np.ndarray) -> float:
     """Largest lam/gam, 1/s, with iota_4 and iota_5 not negative; 0 if there is none."""
     of_4 = (foot / loop.beta - loop.rho * motion.v) / (2.0 * loop.rho * motion.l)
     of_5 = foot * (loop.beta - motion.v) / (motion.l * (foot + loop.rho * motion.v))
     return max(float(np.minimum(of_4, of_5).min()), 0.0)
 
 
-def _smallest(name: str, text: str, unit: str, motion: Motion, iota: np.ndarray | float) -> Inequality:
+def _smallest(name: str, text: str, unit: str, motion: Payout, iota: np.ndarray | float) -> Inequality:
     values = np.broadcast_to(iota, (2 if np.ndim(iota) == 3 else 1, *motion.t.shape))
     at = np.unravel_index(np.argmin(values), values.shape)
     x = float(motion.l[at[1:]]) * float(at[0]) if values.shape[0] == 2 else None

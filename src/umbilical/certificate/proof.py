@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from mpmath.ctx_iv import MPIntervalContext
 
-from umbilical.certificate.conditions import ALONG, Case, case_of, sides
+from umbilical.certificate.conditions import ALONG, Terms, sides, terms_of
 from umbilical.certificate.proof_motion import motion_over
 from umbilical.certificate.records import Proof, Weights
-from umbilical.certificate.setting import Loop, motion_of
+from umbilical.certificate.setting import Loop, payout_of
 from umbilical.scenario.winch import Winch
 
 BITS = 64
@@ -71,7 +71,7 @@ def _slab(
     while waiting:
         begin, end, depth, asked = waiting.pop()
         count += 1
-        case = case_of(loop, weights, motion_of(None, motion_over(ctx, winch, begin, end), loop.g))
+        case = terms_of(loop, weights, payout_of(None, motion_over(ctx, winch, begin, end), loop.g))
         verdicts = _verdicts(case, ctx.mpf(rate), asked, strict)
         undecided = tuple(name for name in asked if verdicts[name] is not True)
         if undecided:
@@ -83,7 +83,7 @@ def _slab(
     return count, "", slab
 
 
-def _verdicts(case: Case, rate: Interval, asked: Collection[str], strict: bool) -> dict[str, bool | None]:
+def _verdicts(case: Terms, rate: Interval, asked: Collection[str], strict: bool) -> dict[str, bool | None]:
     """Whether each condition holds everywhere in a box; False if nowhere, None if the intervals cannot tell."""
     found: dict[str, bool | None] = {}
     for name, above, value in _values(case, rate, asked, strict):
@@ -92,7 +92,7 @@ def _verdicts(case: Case, rate: Interval, asked: Collection[str], strict: bool) 
     return found
 
 
-def _values(case: Case, rate: Interval, asked: Collection[str], strict: bool) -> Iterator[tuple[str, bool, Interval]]:
+def _values(case: Terms, rate: Interval, asked: Collection[str], strict: bool) -> Iterator[tuple[str, bool, Interval]]:
     """Name, whether equality breaks it, and what must not be negative anywhere in the box."""
     for name in asked:
         if name in ALONG:

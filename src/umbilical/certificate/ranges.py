@@ -42,7 +42,7 @@ def _outward(interval: Interval) -> tuple[float, float]:
     return float(np.nextafter(float(interval.a), -np.inf)), float(np.nextafter(float(interval.b), np.inf))
 
 
-def stretch_of(loop: Loop, winch: Winch, weights: Weights, edges: np.ndarray) -> np.ndarray:
+def growth_at_edges(loop: Loop, winch: Winch, weights: Weights, edges: np.ndarray) -> np.ndarray:
     """Largest growth of V where the tension jumps with the winch's acceleration, at each edge.
 
     ``N_after <= k N_before`` for all x with ``k = 1 + (r - 1)/(1 - rho Q^2/T)``, r the ratio of the tensions. Both

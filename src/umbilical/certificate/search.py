@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from umbilical.certificate.conditions import SLACK, Extent, extent, largest_cross, rates
-from umbilical.certificate.setting import Loop, Motion
+from umbilical.certificate.conditions import SLACK, Extent, decay_rates, extent, largest_cross
+from umbilical.certificate.setting import Loop, Payout
 
 CANDIDATES, ROUNDS = 9, 20
 
 
 def best_weights(
-    loop: Loop, motion: Motion, *, vessel_moves: bool = False, enough: float = np.inf
+    loop: Loop, motion: Payout, *, vessel_moves: bool = False, enough: float = np.inf
 ) -> tuple[float, float] | None:
     """lam/gam, 1/s, and lam x0/gam, m/s, with the largest smallest rate; None if K1, K2 and K4 leave no room.
 
@@ -45,9 +45,9 @@ def best_weights(
 
 
 def _score(
-    loop: Loop, motion: Motion, room: Extent, cross: np.ndarray, vessel: np.ndarray, vessel_moves: bool
+    loop: Loop, motion: Payout, room: Extent, cross: np.ndarray, vessel: np.ndarray, vessel_moves: bool
 ) -> np.ndarray:
-    worst = rates(loop, motion, cross[..., None, None], vessel[..., None, None]).min(axis=(-1, -2))
+    worst = decay_rates(loop, motion, cross[..., None, None], vessel[..., None, None]).min(axis=(-1, -2))
     if not vessel_moves:
         return worst
     pays = vessel + float(motion.v.min())

@@ -63,7 +63,7 @@ class Loop(NamedTuple):
         return Loop(*exact)
 
 
-class Motion(NamedTuple):
+class Payout(NamedTuple):
     """The winch at sampled instants, arrays (slabs, samples), or over an interval of time: t, l, v, a, g - a and a'."""
 
     t: Any
@@ -79,13 +79,13 @@ class Motion(NamedTuple):
         return relative_jerk(self.jerk, self.net)
 
 
-def motion_of(t: Any, winch: Any, gravity: Any) -> Motion:
+def payout_of(t: Any, winch: Any, gravity: Any) -> Payout:
     """The motion at t of what has a length, a speed, an acceleration and a jerk."""
     net = net_gravity(gravity, winch.acceleration)
-    return Motion(t, winch.length, winch.speed, winch.acceleration, net, winch.jerk)
+    return Payout(t, winch.length, winch.speed, winch.acceleration, net, winch.jerk)
 
 
-def loop_of(scenario: Scenario) -> Loop:
+def ideal_constants(scenario: Scenario) -> Loop:
     """Constants of the ideal loop.
 
     A steady current pushes a ROV with linear damping by a constant force, which is one of its loads; added mass is
@@ -163,13 +163,13 @@ def slab_edges(winch: Winch, duration: float) -> np.ndarray:
     return np.append(np.concatenate(edges), duration)
 
 
-def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Motion:
+def sampled(winch: Winch, gravity: float, edges: np.ndarray) -> Payout:
     """The winch at :data:`SAMPLES` instants of each slab; limits at its ends are those from inside."""
     t = np.linspace(edges[:-1], edges[1:], SAMPLES, axis=1)
-    return motion_of(t, top_within(winch, t), gravity)
+    return payout_of(t, top_within(winch, t), gravity)
 
 
-def stopped(motion: Motion, gravity: float) -> Motion:
+def stopped(motion: Payout, gravity: float) -> Payout:
     """The same cable with the winch stopped at its greatest length; one slab, one sample."""
     zero = np.zeros((1, 1))
-    return Motion(zero, np.full((1, 1), motion.l.max()), zero, zero, zero + net_gravity(gravity), zero)
+    return Payout(zero, np.full((1, 1), motion.l.max()), zero, zero, zero + net_gravity(gravity), zero)

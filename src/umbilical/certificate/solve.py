@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.certificate.conditions import SLACK, boundary_weight, extent, rate_limit, rates
+from umbilical.certificate.conditions import SLACK, boundary_weight, decay_rates, extent, rate_limit
 from umbilical.certificate.proof import prove
 from umbilical.certificate.records import Proof, Weights
 from umbilical.certificate.search import best_weights
-from umbilical.certificate.setting import Loop, Motion
+from umbilical.certificate.setting import Loop, Payout
 from umbilical.scenario.winch import Winch
 
 ATTEMPTS = 4
@@ -23,7 +23,7 @@ SPREAD = 1.0 / 64.0
 can fall below them, and enough for interval arithmetic."""
 
 
-class Task(NamedTuple):
+class ProofTask(NamedTuple):
     """What is to be certified.
 
     Attributes:
@@ -35,11 +35,11 @@ class Task(NamedTuple):
 
     winch: Winch
     edges: np.ndarray
-    motion: Motion
+    motion: Payout
     vessel_moves: bool
 
 
-class Attempt(NamedTuple):
+class Found(NamedTuple):
     """What came of it.
 
     Attributes:
@@ -58,27 +58,29 @@ class Attempt(NamedTuple):
         return self.proof.holds and bool((self.rates > 0.0).all())
 
 
-def attempt(loop: Loop, task: Task) -> Attempt:
+def find_and_prove(loop: Loop, task: ProofTask) -> Found:
     """The best weights, and the rates that interval arithmetic confirms for them."""
     found = best_weights(loop, task.motion, vessel_moves=task.vessel_moves)
     if found is None:
         nothing = np.full(task.edges.size - 1, np.nan)
-        return Attempt(_without_room(loop, task.motion), nothing, Proof(False, 0))
-    sampled = rates(loop, task.motion, *found)
+        return Found(_without_room(loop, task.motion), nothing, Proof(False, 0))
+    sampled = decay_rates(loop, task.motion, *found)
     capped = np.minimum(sampled.min(axis=1), rate_limit(loop))
     slack = SLACK * np.abs(capped) + SPREAD * np.ptp(sampled, axis=1)
     weights = Weights(*found, boundary_weight(loop, task.motion, float(capped.max())))
     slabs = [_slab(loop, task, weights, k, *numbers) for k, numbers in enumerate(zip(capped, slack, strict=True))]
-    return Attempt(weights, np.array([rate for rate, _ in slabs]), _joined([proof for _, proof in slabs]))
+    return Found(weights, np.array([rate for rate, _ in slabs]), _joined([proof for _, proof in slabs]))
 
 
-def _without_room(loop: Loop, motion: Motion) -> Weights:
+def _without_room(loop: Loop, motion: Payout) -> Weights:
     room = extent(loop, motion)
     cross = SLACK * float(room.reach.min()) / float(motion.l.max())
     return Weights(cross, room.least_vessel, boundary_weight(loop, motion, 0.0))
 
 
-def _slab(loop: Loop, task: Task, weights: Weights, slab: int, sampled: float, slack: float) -> tuple[float, Proof]:
+def _slab(
+    loop: Loop, task: ProofTask, weights: Weights, slab: int, sampled: float, slack: float
+) -> tuple[float, Proof]:
     """A rate a little below the samples of a slab, and its proof; one that resists is tried again lower."""
     edges = task.edges[slab : slab + 2]
     for tried in range(ATTEMPTS):

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.analysis.energy import energy, relative_residual, residual, scale_of, tension_at_ends
+from umbilical.analysis.energy import balance_residual, energy, relative_residual, scale_of, tension_at_ends
 from umbilical.engine.recording import Log, channels, inside, root_mean_square
 from umbilical.engine.saturation import saturation
 from umbilical.engine.schedule import Clock
@@ -127,7 +127,7 @@ def _balance(scenario: Scenario, log: Log, named: dict[str, np.ndarray]) -> dict
 
 def closed(named: dict[str, np.ndarray], works: np.ndarray) -> dict[str, float]:
     """Adds the residual of the energy's balance to the channels; what it comes to over the run, as metrics."""
-    named["energy_residual"] = residual(named["energy"], works)
+    named["energy_residual"] = balance_residual(named["energy"], works)
     lost = float(np.abs(named["work_grid"][-1]))
     return {
         "energy_balance_residual": relative_residual(named["energy"], works),

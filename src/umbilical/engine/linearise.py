@@ -33,7 +33,7 @@ class Names(NamedTuple):
 UNNAMED = Names()
 
 
-class Point(NamedTuple):
+class LinearisationPoint(NamedTuple):
     """Where a step is linearised: its state, its inputs and what they are called."""
 
     state: np.ndarray
@@ -69,14 +69,14 @@ class Linear:
         return self.c @ np.linalg.solve(shifted, np.broadcast_to(self.b, (z.size, *self.b.shape))) + self.d
 
 
-def linearise(step: Step, at: Point) -> Linear:
+def linearise(step: Step, at: LinearisationPoint) -> Linear:
     """Linearise a step or an update by central differences about an operating point.
 
     Args:
         step: what is linearised; it must not change its arguments.
         at: the operating point.
 
-    >>> system = linearise(lambda x, u: (0.5 * x + u, x**2), Point(np.array([3.0]), np.array([0.0])))
+    >>> system = linearise(lambda x, u: (0.5 * x + u, x**2), LinearisationPoint(np.array([3.0]), np.array([0.0])))
     >>> system.a.item(), system.b.item(), system.c.item(), system.d.item()
     (0.5, 1.0, 6.0, 0.0)
     """
@@ -98,7 +98,7 @@ def differences(
         yield (function(at + change) - function(at - change)) / (2.0 * half)
 
 
-def held(a: np.ndarray, b: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
+def hold_input(a: np.ndarray, b: np.ndarray, period: float) -> tuple[np.ndarray, np.ndarray]:
     """Exact step of ``x' = a x + b u`` under a held input, ``b`` of shape (n, inputs)."""
     form = held_input_form(a, b, period)
     return form[:, : len(a)], form[:, len(a) :]

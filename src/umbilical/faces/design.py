@@ -11,7 +11,7 @@ from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.synthesis.design import Design
-    from umbilical.synthesis.iterate import Side
+    from umbilical.synthesis.iterate import Evaluation
 
 NOT_ASKED = "the engine's grids; `umbilical margins` of these gains asks them, and may leave the margins unresolved"
 
@@ -38,7 +38,7 @@ def document(found: Design) -> dict[str, Any]:
     }
 
 
-def _side(side: Side) -> dict[str, Any]:
+def _side(side: Evaluation) -> dict[str, Any]:
     trial = side.trial
     return {
         "margins_met": side.meets,

@@ -8,7 +8,7 @@ import numpy as np
 
 from umbilical.errors import MissingPartnerError, expect
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.judgement import check, usual_lengths, usual_thrust
+from umbilical.stability.judgement import check_loop, usual_lengths, usual_thrust
 from umbilical.stability.laws import READINGS
 from umbilical.stability.margins import check_request
 from umbilical.stability.period import linear_period
@@ -44,7 +44,7 @@ def to_control(
     """
     expect(scenario, "Scenario", "load")
     control = _partner()
-    check(scenario)
+    check_loop(scenario)
     chosen = max(usual_lengths(scenario)) if length is None else length
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
     check_request(scenario, [chosen], thrust)

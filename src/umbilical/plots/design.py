@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umbilical.synthesis.design import Design
-    from umbilical.synthesis.iterate import Side
+    from umbilical.synthesis.iterate import Evaluation
 
 
 LEAST_TAKEN = 1e-4
@@ -100,7 +100,7 @@ def _draw_motion(design: Design, ax: Axes, sigma: float, name: str) -> None:
     dress(ax, f"displacement of the {name}", xlabel="time [s]", ylabel="y [m]")
 
 
-def _sides(design: Design) -> list[tuple[Side, dict[str, Any]]]:
+def _sides(design: Design) -> list[tuple[Evaluation, dict[str, Any]]]:
     """Both sides with the look of their curves."""
     return [
         (design.before, {"color": COLOURS[1], "label": "before"}),

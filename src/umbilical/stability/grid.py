@@ -17,9 +17,9 @@ import numpy as np
 
 from umbilical.plant.multistep import courant_limit
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import hanging_cable, waves
+from umbilical.stability.impedance import hanging_cable, waves_at_rov
 from umbilical.stability.judgement import Judgement
-from umbilical.stability.limits import Margins, margins
+from umbilical.stability.limits import Margins, find_limits
 from umbilical.stability.matrix import MOST_ELEMENTS, MatrixCheck, check_matrix
 from umbilical.stability.nyquist import Stability, Sweep, stability
 from umbilical.stability.period import LinearPeriod, linear_period
@@ -47,7 +47,7 @@ SAMPLES = 12.0
 """Samples of the outer law in one turn of that frequency at least: above it the held thrust hides the grid."""
 
 
-class Difference(NamedTuple):
+class GridDifference(NamedTuple):
     """What differs most between a grid and the exact cable: its name, the value of each, how much relatively."""
 
     name: str
@@ -70,7 +70,7 @@ class GridJudgement:
     elements: int
     stability: Stability
     margins: Margins | None
-    differs: Difference
+    differs: GridDifference
     heard: float
 
     @property
@@ -79,7 +79,7 @@ class GridJudgement:
         return self.differs.size
 
 
-def judge_grid(scenario: Scenario, exact: Judgement, elements: int) -> GridJudgement:
+def margins_on_grid(scenario: Scenario, exact: Judgement, elements: int) -> GridJudgement:
     """The loop of an exact judgement on a grid of so many elements."""
     return _judge_grid(on_grid(scenario, exact.length, elements), exact)
 
@@ -89,7 +89,7 @@ def check_count(scenario: Scenario, exact: Judgement, elements: Sequence[int]) -
     coarse = on_grid(scenario, exact.length, min(*elements, MOST_ELEMENTS))
     period = linear_period(coarse, exact.sweep.loop, exact.length)
     echoed, _ = with_grid_echo(exact.sweep, period, coarse.grid.elements)
-    limits = margins(echoed) if stability(echoed).unstable == 0 else None
+    limits = find_limits(echoed) if stability(echoed).unstable == 0 else None
     return check_matrix(coarse.grid.elements, period, echoed, limits)
 
 
@@ -111,15 +111,15 @@ def _judge_grid(scenario: Scenario, exact: Judgement) -> GridJudgement:
     period = linear_period(scenario, swept.loop, exact.length)
     echoed, heard = with_grid_echo(swept, period, scenario.grid.elements)
     found = stability(echoed)
-    limits = margins(echoed) if found.unstable == 0 else None
+    limits = find_limits(echoed) if found.unstable == 0 else None
     return GridJudgement(scenario.grid.elements, found, limits, _differs(found, limits, exact), heard)
 
 
-def _differs(found: Stability, limits: Margins | None, exact: Judgement) -> Difference:
+def _differs(found: Stability, limits: Margins | None, exact: Judgement) -> GridDifference:
     if (limits is None) != (exact.margins is None):
-        return Difference("unstable poles", found.unstable, exact.stability.unstable, np.inf)
+        return GridDifference("unstable poles", found.unstable, exact.stability.unstable, np.inf)
     one, other = (_numbers(*pair) for pair in ((found, limits), (exact.stability, exact.margins)))
-    apart = (Difference(name, one.get(name, 0.0), x, _apart(one.get(name, 0.0), x)) for name, x in other.items())
+    apart = (GridDifference(name, one.get(name, 0.0), x, _apart(one.get(name, 0.0), x)) for name, x in other.items())
     return max(apart, key=lambda difference: difference.size)
 
 
@@ -168,7 +168,7 @@ def _followed(swept: Sweep, period: LinearPeriod, ends: tuple[float, float]) -> 
     from scipy.interpolate import CubicSpline
 
     def ask(w: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        exact = waves(swept.cable, 1j * w).echo
+        exact = waves_at_rov(swept.cable, 1j * w).echo
         return grid_echo(swept, period, w) / exact, np.abs(exact)
 
     w = np.geomspace(*ends, POINTS)
@@ -192,7 +192,7 @@ def _followed(swept: Sweep, period: LinearPeriod, ends: tuple[float, float]) -> 
 def grid_echo(swept: Sweep, period: LinearPeriod, w: np.ndarray) -> np.ndarray:
     """The echo at frequencies, rad/s, from the ratio of displacement and slope that the ROV reads."""
     cable, p = swept.cable, 1j * w
-    met = waves(cable, p)
+    met = waves_at_rov(cable, p)
     late = np.exp(-p[:, None] * np.array(swept.loop.ages[:2]))
     seen = (period.plant(w) - alias_sum(cable, swept.loop, p))[:, :2] / late
     pull = cable.tip_tension * seen[:, 1] / seen[:, 0]

@@ -40,7 +40,7 @@ _PIECES = 40
 
 
 @dataclass(frozen=True)
-class HangingCable:
+class FixedLengthCable:
     """Cable and ROV at a length that does not change.
 
     Attributes:
@@ -84,7 +84,7 @@ class HangingCable:
         return float(4.0 * np.sqrt(self.line_density) * self.length / roots)
 
 
-class Waves(NamedTuple):
+class RovWaves(NamedTuple):
     """What the ROV meets at complex frequencies p, 1/s; arrays of one shape.
 
     Attributes:
@@ -97,7 +97,7 @@ class Waves(NamedTuple):
     up: np.ndarray
 
 
-def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
+def hanging_cable(scenario: Scenario, length: float) -> FixedLengthCable:
     """Cable and ROV of a scenario at a length, m, the winch standing still, in the current of the start.
 
     Drag counts with its slope there, along the cable with its mean over each of the pieces where it varies with depth.
@@ -109,7 +109,7 @@ def hanging_cable(scenario: Scenario, length: float) -> HangingCable:
     at = OperatingPoint(length, np.zeros(_POINTS), water)
     damping = np.sum([np.broadcast_to(found, sigma.shape) for found in dampings(scenario, at, "cable")], axis=0)[::-1]
     pieces = _pieces(damping, length) if np.ptp(damping) > 1e-9 * damping.max() else ()
-    return HangingCable(
+    return FixedLengthCable(
         line_density=line_inertia(cable, payload, environment),
         damping=pieces[0][1] if pieces else float(damping[0]),
         payload_mass=payload_inertia(payload),
@@ -128,11 +128,11 @@ def _pieces(damping: np.ndarray, length: float) -> tuple[tuple[float, float], ..
     return tuple((length / _PIECES, float(np.trapezoid(part) / every)) for part in parts)
 
 
-def waves(cable: HangingCable, p: np.ndarray) -> Waves:
+def waves_at_rov(cable: FixedLengthCable, p: np.ndarray) -> RovWaves:
     """Echo and impedances at complex frequencies p with a positive imaginary part, 1/s.
 
-    >>> cable = HangingCable(2.0, 0.0, 500.0, 0.0, 5000.0, 0.0, 400.0)  # constant tension: a pure delay
-    >>> bool(np.isclose(waves(cable, np.array([1j])).echo[0], -np.exp(-1j * 2 * 400 / 50)))
+    >>> cable = FixedLengthCable(2.0, 0.0, 500.0, 0.0, 5000.0, 0.0, 400.0)  # constant tension: a pure delay
+    >>> bool(np.isclose(waves_at_rov(cable, np.array([1j])).echo[0], -np.exp(-1j * 2 * 400 / 50)))
     True
     """
     p = np.asarray(p, dtype=complex)
@@ -142,7 +142,7 @@ def waves(cable: HangingCable, p: np.ndarray) -> Waves:
         there, pull = 1.0 + echo, last.down * echo + last.up
         echo = piece.round_trip * (piece.top_up * there - pull) / (pull - piece.top_down * there)
         last = piece
-    return Waves(echo, last.down, last.up)
+    return RovWaves(echo, last.down, last.up)
 
 
 class _Through(NamedTuple):
@@ -155,7 +155,7 @@ class _Through(NamedTuple):
     top_up: np.ndarray
 
 
-def _from_the_vessel(cable: HangingCable) -> Iterator[HangingCable]:
+def _from_the_vessel(cable: FixedLengthCable) -> Iterator[FixedLengthCable]:
     """Its pieces as cables of their own, from the vessel down."""
     bottom = cable.length
     for length, damping in reversed(cable.pieces or ((cable.length, cable.damping),)):
@@ -164,8 +164,8 @@ def _from_the_vessel(cable: HangingCable) -> Iterator[HangingCable]:
         yield replace(cable, damping=damping, tip_tension=tension, length=length, pieces=())
 
 
-def _through(cable: HangingCable, p: np.ndarray) -> _Through:
-    gamma = wave_number(cable, p)
+def _through(cable: FixedLengthCable, p: np.ndarray) -> _Through:
+    gamma = cable_wave_number(cable, p)
     slope = cable.tip_tension * gamma
     if cable.weight == 0.0:
         return _Through(np.exp(-2.0 * gamma * cable.length), slope, -slope, slope, -slope)
@@ -187,17 +187,17 @@ def _through(cable: HangingCable, p: np.ndarray) -> _Through:
     )
 
 
-def wave_number(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+def cable_wave_number(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
     """gamma = sqrt((rho p^2 + c p)/T) at the ROV, 1/m, of positive real part: a wave goes as exp(-gamma s)."""
     return p * np.sqrt((cable.line_density + cable.damping / p) / cable.tip_tension)
 
 
-def upward_asymptote(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+def upward_asymptote(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
     """``up`` of :func:`waves` far above the first mode, N/m: ``-(T_l gamma + w/4)``, next term of order 1/p."""
     taper = cable.weight / (4.0 * cable.tip_tension)
-    return -cable.tip_tension * (wave_number(cable, p) + taper)
+    return -cable.tip_tension * (cable_wave_number(cable, p) + taper)
 
 
-def payload_stiffness(cable: HangingCable, p: np.ndarray) -> np.ndarray:
+def payload_stiffness(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
     """m p^2 + c_tip p, N/m: force over displacement of the ROV alone."""
     return p * (cable.payload_mass * p + cable.payload_damping)

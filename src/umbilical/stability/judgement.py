@@ -1,7 +1,7 @@
 """What the linearised sampled loop is worth at one length: stability, margins, modes, reflection.
 
 >>> import umbilical
->>> found = judge(umbilical.load("paper"), 450.0)
+>>> found = margins_at(umbilical.load("paper"), 450.0)
 >>> found.stable, 1.0 < found.margins.gain_high.size < 4.0
 (True, True)
 """
@@ -17,9 +17,9 @@ from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.plant import signals
 from umbilical.plant.top import top_at
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import HangingCable, hanging_cable
-from umbilical.stability.limits import Margins, margins
-from umbilical.stability.nyquist import Stability, Sweep, near_poles, stability, sweep
+from umbilical.stability.impedance import FixedLengthCable, hanging_cable
+from umbilical.stability.limits import Margins, find_limits
+from umbilical.stability.nyquist import Stability, Sweep, near_poles, stability, sweep_loop
 from umbilical.stability.sampled import SampledLoop, loop_response, sampled_loop
 
 MODES = 5
@@ -68,7 +68,7 @@ class Judgement:
         return self.stability.unstable == 0
 
 
-def judge(scenario: Scenario, length: float, operating_thrust: float | None = None) -> Judgement:
+def margins_at(scenario: Scenario, length: float, operating_thrust: float | None = None) -> Judgement:
     """Stability, margins, modes and reflection of a scenario's loop, the winch standing at a length.
 
     Args:
@@ -80,21 +80,21 @@ def judge(scenario: Scenario, length: float, operating_thrust: float | None = No
     Raises:
         ScenarioError: there is no loop, or one that cannot be linearised.
     """
-    check(scenario)
+    check_loop(scenario)
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
-    return judge_loop(hanging_cable(scenario, length), sampled_loop(scenario, thrust))
+    return margins_of(hanging_cable(scenario, length), sampled_loop(scenario, thrust))
 
 
-def judge_loop(cable: HangingCable, loop: SampledLoop) -> Judgement:
+def margins_of(cable: FixedLengthCable, loop: SampledLoop) -> Judgement:
     """The same from cable and loop."""
-    swept = sweep(cable, loop)
+    swept = sweep_loop(cable, loop)
     found = stability(swept)
     frequency = np.geomspace(swept.w[0], swept.w[-1], POINTS)
     response = loop_response(cable, loop, 1j * frequency)
     return Judgement(
         length=cable.length,
         stability=found,
-        margins=margins(swept) if found.unstable == 0 else None,
+        margins=find_limits(swept) if found.unstable == 0 else None,
         modes=_modes(swept),
         frequency=frequency,
         reflection=np.abs(response.reflection()),
@@ -144,7 +144,7 @@ def usual_lengths(scenario: Scenario) -> tuple[float, ...]:
     return (low,) if high - low < 1e-9 * high else (low, 0.5 * (low + high), high)
 
 
-def check(scenario: Scenario) -> None:
+def check_loop(scenario: Scenario) -> None:
     """Refuse a law of the scenario's own that has no margins.
 
     Raises:

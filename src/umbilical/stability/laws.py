@@ -13,7 +13,7 @@ import numpy as np
 from umbilical.control.allocation.table import ADAPTIVE
 from umbilical.control.cascade import CascadeState, MotorMemory, Motors, Outer, OuterMemory, update_motors, update_outer
 from umbilical.control.contract import MotorReadings, TipReadings, make_decision, make_readings
-from umbilical.engine.linearise import Linear, Names, Point, linearise
+from umbilical.engine.linearise import Linear, LinearisationPoint, Names, linearise
 from umbilical.frames import Frame, leaves
 
 READINGS = tuple(TipReadings.fields)
@@ -22,7 +22,7 @@ _DEVIATIONS = np.linspace(-6.0, 6.0, 801)
 _LIKELIHOOD = np.exp(-0.5 * _DEVIATIONS**2) / np.exp(-0.5 * _DEVIATIONS**2).sum()
 
 
-def outer_law(outer: Outer) -> Linear:
+def linear_outer_law(outer: Outer) -> Linear:
     """From the four readings at the ROV to the commanded thrust.
 
     States are what observers remember and the command that was held last, alpha_c.
@@ -38,10 +38,10 @@ def outer_law(outer: Outer) -> Linear:
         return np.append(remembered[kept], command.thrust_command), np.array([command.thrust_command])
 
     names = Names((*_names(OuterMemory), "thrust_command"), READINGS, ("thrust_command",))
-    return linearise(step, Point(np.zeros(kept.size + 1), np.zeros(len(READINGS)), names))
+    return linearise(step, LinearisationPoint(np.zeros(kept.size + 1), np.zeros(len(READINGS)), names))
 
 
-def motor_law(motors: Motors, number: int, speed: float, demand: float = 0.0, spread: float = 0.0) -> Linear:
+def linear_motor_law(motors: Motors, number: int, speed: float, demand: float = 0.0, spread: float = 0.0) -> Linear:
     """From (demand U_i, w, i) to the voltage of one motor, eqs. (52)-(64), near a steady speed.
 
     Args:
@@ -68,7 +68,7 @@ def motor_law(motors: Motors, number: int, speed: float, demand: float = 0.0, sp
     steady = [speed, 0.0, 0.0, -motors.observer_gain * scaled, -c[0].f21 * speed - c[0].f22 * scaled]
     inputs = np.array([usual, speed, scaled / c[0].current_scale])
     names = Names(_names(MotorMemory), ("demand", *MotorReadings.fields), ("motor_voltage",))
-    law = linearise(step, Point(np.array(steady), inputs, names))
+    law = linearise(step, LinearisationPoint(np.array(steady), inputs, names))
     if spread:
         share = root_slope(demand, width, spread) / root_slope(usual, width)
         law.b[:, 0] *= share

@@ -60,33 +60,33 @@ class Margins:
         return gains and self.phase.size >= phase and self.delay.size >= delay
 
 
-def margins(s: Sweep) -> Margins:
+def find_limits(s: Sweep) -> Margins:
     """The limits of a loop that is stable."""
     period = s.loop.outer_period
     gains = np.append(np.arange(1.0, np.log(LARGEST_GAIN) / np.log(GAIN_STEP)), 0.0)
     growing = GAIN_STEP ** np.sort(gains)
     phases = np.arange(0.0, LARGEST_PHASE + PHASE_STEP, PHASE_STEP)
     delays = np.append(0.0, np.geomspace(FIRST_DELAY, LARGEST_DELAY, 52) * period)
-    lag, lead = (_limit(s, lambda x, sign=sign: turned(sign * x), phases, np.inf) for sign in (1.0, -1.0))
+    lag, lead = (_limit(s, lambda x, sign=sign: phase_factor(sign * x), phases, np.inf) for sign in (1.0, -1.0))
     return Margins(
-        gain_low=_limit(s, scaled, 1.0 / growing, 0.0),
-        gain_high=_limit(s, scaled, growing, np.inf),
+        gain_low=_limit(s, gain_factor, 1.0 / growing, 0.0),
+        gain_high=_limit(s, gain_factor, growing, np.inf),
         phase=min(lag, lead, key=lambda limit: limit.size),
-        delay=_limit(s, later, delays, np.inf),
+        delay=_limit(s, delay_factor, delays, np.inf),
     )
 
 
-def scaled(gain: float) -> Factor:
+def gain_factor(gain: float) -> Factor:
     """A thruster that delivers a share of what is commanded."""
     return lambda p: np.full(p.shape, gain, dtype=complex)
 
 
-def turned(phase: float) -> Factor:
+def phase_factor(phase: float) -> Factor:
     """The same lag at every frequency, rad; none on the real axis."""
     return lambda p: np.exp(-1j * phase * np.angle(p) / (0.5 * np.pi))
 
 
-def later(delay: float) -> Factor:
+def delay_factor(delay: float) -> Factor:
     """A delay, s."""
     return lambda p: np.exp(-p * delay)
 

@@ -12,9 +12,9 @@ from umbilical.errors import Problem, ScenarioError
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.sensors import Channel
-from umbilical.stability.grid import GridJudgement, check_count, judge_grid, resolved
+from umbilical.stability.grid import GridJudgement, check_count, margins_on_grid, resolved
 from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import Judgement, check, judge_loop, usual_lengths, usual_thrust
+from umbilical.stability.judgement import Judgement, check_loop, margins_of, usual_lengths, usual_thrust
 from umbilical.stability.matrix import MatrixCheck
 from umbilical.stability.sampled import sampled_loop
 from umbilical.stability.updates import Doubt
@@ -129,7 +129,7 @@ def margins(
     (True, [400.0])
     """
     if controller is None:
-        check(scenario)
+        check_loop(scenario)
     else:
         rehearse(scenario, controller)
     chosen = usual_lengths(scenario) if lengths is None else _as_lengths(scenario, lengths)
@@ -142,13 +142,13 @@ def margins(
     except Doubt as doubt:
         return MarginReport(scenario, thrust, (), controller=name, doubt=str(doubt))
     pairs = zip(chosen, loops, strict=True)
-    found = tuple(done(judge_loop(hanging_cable(scenario, length), loop)) for length, loop in pairs)
+    found = tuple(done(margins_of(hanging_cable(scenario, length), loop)) for length, loop in pairs)
     longest = max(found, key=lambda judgement: judgement.length)
     checked = done(check_count(scenario, longest, elements)) if elements else None
-    grids = [done(judge_grid(scenario, longest, number)) for number in elements]
+    grids = [done(margins_on_grid(scenario, longest, number)) for number in elements]
     # Where both are unstable they differ in how many waves a grid carries; a finer one costs much and differs, too.
     while grids and 2 * grids[-1].elements <= finest and not resolved(grids) and (longest.stable or grids[-1].margins):
-        grids.append(judge_grid(scenario, longest, 2 * grids[-1].elements))
+        grids.append(margins_on_grid(scenario, longest, 2 * grids[-1].elements))
     return MarginReport(scenario, thrust, found, tuple(grids), checked, name)
 
 

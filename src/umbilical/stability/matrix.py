@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.stability.limits import Margins, later, scaled
+from umbilical.stability.limits import Margins, delay_factor, gain_factor
 from umbilical.stability.nyquist import Factor, Sweep, stability, unchanged
 from umbilical.stability.period import LinearPeriod
 from umbilical.stability.sampled import ON_THE_CIRCLE
@@ -85,12 +85,12 @@ def _changes(period: LinearPeriod, limits: Margins | None) -> Iterator[tuple[str
     for limit in (limits.gain_low.size, limits.gain_high.size):
         for gain in (limit * (1.0 - BESIDE), limit * (1.0 + BESIDE)):
             if 0.0 < limit < np.inf:
-                yield f"{gain:.3g} times the thrust", scaled(gain), period.scaled(gain)
+                yield f"{gain:.3g} times the thrust", gain_factor(gain), period.scaled(gain)
     if np.isfinite(limits.delay.size):
         limit = limits.delay.size / period.period
         for periods in (math.floor(limit * (1.0 - BESIDE)), math.ceil(limit * (1.0 + BESIDE))):
             delay = periods * period.period
-            yield f"{1e3 * delay:.3g} ms later", later(delay), period.later(periods)
+            yield f"{1e3 * delay:.3g} ms later", delay_factor(delay), period.later(periods)
 
 
 def unstable_eigenvalues(period: LinearPeriod) -> tuple[int, int]:

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical.stability.impedance import HangingCable, waves
+from umbilical.stability.impedance import FixedLengthCable, waves_at_rov
 from umbilical.stability.sampled import SampledLoop, loop_response
 
 PER_DECADE = 300
@@ -75,7 +75,7 @@ class Sweep:
         arc, around: complex frequencies around z = 1, 1/s, with the loop and its echo there.
     """
 
-    cable: HangingCable
+    cable: FixedLengthCable
     loop: SampledLoop
     coarse: np.ndarray
     opened: Opened
@@ -159,7 +159,7 @@ def unchanged(p: np.ndarray) -> np.ndarray:
     return np.ones_like(p)
 
 
-def sweep(cable: HangingCable, loop: SampledLoop) -> Sweep:
+def sweep_loop(cable: FixedLengthCable, loop: SampledLoop) -> Sweep:
     """The opened loop from far below the first mode to half the sampling frequency."""
     first, last = LOWEST * np.pi / cable.round_trip, np.pi / loop.outer_period
     coarse = np.geomspace(first, last, int(PER_DECADE * np.log10(last / first)))
@@ -171,14 +171,14 @@ def sweep(cable: HangingCable, loop: SampledLoop) -> Sweep:
         coarse=coarse,
         opened=_opened(cable, loop, 1j * coarse),
         w=w,
-        echo=waves(cable, 1j * w).echo,
+        echo=waves_at_rov(cable, 1j * w).echo,
         arc=arc,
         around=_opened(cable, loop, arc),
-        arc_echo=waves(cable, arc).echo,
+        arc_echo=waves_at_rov(cable, arc).echo,
     )
 
 
-def _opened(cable: HangingCable, loop: SampledLoop, p: np.ndarray) -> Opened:
+def _opened(cable: FixedLengthCable, loop: SampledLoop, p: np.ndarray) -> Opened:
     r = loop_response(cable, loop, p)
     return Opened(r.down1 / r.up1, r.up2 / r.up1, r.down2 / r.up1)
 

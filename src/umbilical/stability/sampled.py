@@ -20,11 +20,11 @@ import numpy as np
 
 from umbilical.control.cascade import CascadeSettings, make_settings, make_state, with_known_factors
 from umbilical.control.contract import Controller, Measurement
-from umbilical.engine.linearise import Linear, delayed, held
+from umbilical.engine.linearise import Linear, delayed, hold_input
 from umbilical.relations.formulas import motor_rates, soft_signed_root
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import HangingCable, Waves, payload_stiffness, upward_asymptote, waves
-from umbilical.stability.laws import READINGS, motor_law, outer_law, shares
+from umbilical.stability.impedance import FixedLengthCable, RovWaves, payload_stiffness, upward_asymptote, waves_at_rov
+from umbilical.stability.laws import READINGS, linear_motor_law, linear_outer_law, shares
 from umbilical.stability.updates import Rest, linearise_controller
 
 ALIASES = 12
@@ -55,7 +55,7 @@ class Drive:
 
     def closed(self, period: float) -> Linear:
         """From (demand, errors of w and of i) to (voltage, w), the loop closed; states are the law's, then w and i."""
-        a, b = held(self.rates, self.volts, period)
+        a, b = hold_input(self.rates, self.volts, period)
         k, seen, n = self.law, slice(1, 3), self.law.a.shape[0]
         upper = np.hstack([k.a, k.b[:, seen]])
         lower = np.hstack([b @ k.c, a + b @ k.d[:, seen]])
@@ -121,7 +121,7 @@ def sampled_loop(
     """
     settings, period = make_settings(scenario), scenario.control.period
     if controller is None:
-        law, every = outer_law(settings.outer), settings.outer_every
+        law, every = linear_outer_law(settings.outer), settings.outer_every
     else:
         settings = with_known_factors(settings)
         law = linearise_controller(controller, _at_rest(scenario, settings, operating_thrust, length))
@@ -180,7 +180,7 @@ def _drive(
     demand = share * thrust + np.sign(share) * make_state(scenario).kappa[1:].sum()
     varying = abs(share) * spread
     speed = float(soft_signed_root(np.hypot(demand, varying), motors.command_filter.width))
-    law = delayed(motor_law(motors, number, speed, abs(demand), varying), ages)
+    law = delayed(linear_motor_law(motors, number, speed, abs(demand), varying), ages)
     rates, volts = motor_rates(motor, speed)
     return Drive(law, rates, volts, share * 2.0 * motor.thrust_coefficient * speed, abs(share))
 
@@ -218,7 +218,7 @@ class LoopResponse(NamedTuple):
 
 
 def loop_response(
-    cable: HangingCable, loop: SampledLoop, p: np.ndarray, met: Waves | None = None, aliases: int = ALIASES
+    cable: FixedLengthCable, loop: SampledLoop, p: np.ndarray, met: RovWaves | None = None, aliases: int = ALIASES
 ) -> LoopResponse:
     """The opened loop at complex frequencies p.
 
@@ -231,7 +231,7 @@ def loop_response(
     p = np.asarray(p, dtype=complex)
     z = np.exp(p * loop.outer_period)
     gains = loop.law.response(z)[:, 0, :]
-    w = met or waves(cable, p)
+    w = met or waves_at_rov(cable, p)
     stiffness = payload_stiffness(cable, p)
     force = delivered(loop, p, demands_to_volts(loop, p))
     up1, down1 = stiffness - w.up, stiffness - w.down
@@ -243,7 +243,7 @@ def loop_response(
     return LoopResponse(p, w.echo, up1, down1, up2, down2, force)
 
 
-def alias_sum(cable: HangingCable, loop: SampledLoop, p: np.ndarray, aliases: int = ALIASES) -> np.ndarray:
+def alias_sum(cable: FixedLengthCable, loop: SampledLoop, p: np.ndarray, aliases: int = ALIASES) -> np.ndarray:
     """Readings per commanded thrust that the aliases other than p add, shape (len(p), 4): cable without an end."""
     from scipy.special import polygamma
 

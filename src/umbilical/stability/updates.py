@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.control.contract import Controller, Measurement
-from umbilical.engine.linearise import SIZE, Linear, Names, Point, linearise
+from umbilical.engine.linearise import SIZE, Linear, LinearisationPoint, Names, linearise
 from umbilical.scenario.base import Record
 from umbilical.stability.laws import READINGS
 
@@ -80,7 +80,7 @@ def _linearised(controller: Controller, rest: Rest) -> Linear:
         return np.array([found[path] for path in paths])
 
     names = Names(tuple(".".join(map(str, path[1:])) for path in paths), READINGS, ("thrust_command",))
-    law = linearise(step, Point(numbers(settled), np.zeros(len(READINGS)), names))
+    law = linearise(step, LinearisationPoint(numbers(settled), np.zeros(len(READINGS)), names))
     if not (np.abs(law.c).any() or np.abs(law.d).any()):
         raise Doubt("its thrust answers no reading at the operating point")
     for share in (0.0, 0.5, 1.0):

@@ -10,9 +10,9 @@ import numpy as np
 from umbilical.certificate import Certificate, Start, Weights, bound, cable_bound, certify
 from umbilical.certificate.lyapunov import (
     boundary_function,
-    boundary_rates,
+    boundary_function_rates,
     cable_function,
-    cable_rates,
+    cable_function_rates,
     law_error,
 )
 from umbilical.engine.simulate import simulate
@@ -162,8 +162,8 @@ def identity_residual(run: Run, certificate: Certificate, value: np.ndarray) -> 
     if observer is None or not observer.enabled or value.size < 2:
         return float("nan")
     read = _read(run)
-    terms = cable_rates(run.scenario, read, certificate.weights)
-    terms |= boundary_rates(run.scenario, read, certificate.weights)
+    terms = cable_function_rates(run.scenario, read, certificate.weights)
+    terms |= boundary_function_rates(run.scenario, read, certificate.weights)
     gained = cumulative_trapezoid(sum(terms.values()), read["time"], initial=0.0)
     largest = float(value.max())
     return float(np.abs(value - value[0] - gained).max()) / largest if largest > 0.0 else 0.0

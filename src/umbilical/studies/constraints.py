@@ -43,10 +43,10 @@ def margins_kept(scenario: Scenario) -> float:
     >>> 0.0 < margins_kept(load("paper")) < 1.0  # stable, but not with twice the thrust
     True
     """
-    from umbilical.stability.judgement import judge, usual_lengths
+    from umbilical.stability.judgement import margins_at, usual_lengths
 
     try:
-        found = [judge(scenario, length) for length in usual_lengths(scenario)]
+        found = [margins_at(scenario, length) for length in usual_lengths(scenario)]
     except ScenarioError:  # no loop, or one that cannot be linearised
         return 1.0
     if unstable := sum(one.stability.unstable for one in found):

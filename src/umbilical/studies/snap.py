@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from scipy.stats import gumbel_r
 
-from umbilical.analysis.paired import Estimate, share
+from umbilical.analysis.paired import Estimate, proportion
 from umbilical.engine.simulate import simulate
 from umbilical.errors import Problem, ScenarioError
 from umbilical.plant.rope.assemble import body_data, stiffness, weights_of
@@ -114,7 +114,7 @@ def snap(
     good = completed > 0.0
     return SnapStudy(
         scenario, chosen, good, reasons, tension, snaps.astype(int), largest, weights_of(scenario)[1], speed,
-        share(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], int(chosen[0])),
+        proportion(float(slack[good].sum()), int(good.sum())), _extreme(tension[good], int(chosen[0])),
     )  # fmt: skip
 
 

@@ -38,7 +38,7 @@ def at(result: StudyResult, metric: str, arm: str, share: float) -> Estimate:
 
 def beyond(result: StudyResult, metric: str, arm: str, limit: float) -> Estimate:
     """Share of the members in which a metric exceeds a limit."""
-    return _as_sure_as_it_is(result, paired.exceedance(result.values(metric, arm), limit))
+    return _as_sure_as_it_is(result, paired.exceedance_probability(result.values(metric, arm), limit))
 
 
 def against(result: StudyResult, metric: str, arm: str, other: str) -> Comparison:

@@ -13,13 +13,13 @@ from umbilical.library import admit
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
 from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import check, usual_lengths, usual_thrust
+from umbilical.stability.judgement import check_loop, usual_lengths, usual_thrust
 from umbilical.stability.margins import check_request
 from umbilical.stability.sampled import sampled_loop
-from umbilical.synthesis.iterate import Limits, Outcome, Side, badness, design_within, side
+from umbilical.synthesis.iterate import DesignOutcome, Evaluation, Limits, badness, design_within, evaluate_gains
 from umbilical.synthesis.periods import pace, paced
 from umbilical.synthesis.score import Demands, Score
-from umbilical.synthesis.search import Objective, Task, Values, inner_knobs
+from umbilical.synthesis.search import DesignTask, Objective, Values, inner_knobs
 
 UNITS = {"voltage": "V", "speed": "rad/s", "chatter": "V", "noise": "V"}
 """Of the limits."""
@@ -50,8 +50,8 @@ class Design(ResultFaces):
 
     objective: Objective
     values: dict[str, float]
-    before: Side
-    after: Side
+    before: Evaluation
+    after: Evaluation
     missing: tuple[str, ...]
     limited_by: tuple[str, ...]
     betas: np.ndarray
@@ -116,7 +116,7 @@ def design(
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
     check_request(scenario, lengths, thrust)
     wave_speed = hanging_cable(scenario, lengths[0]).tip_wave_speed
-    base = Task(scenario, (), objective, demands, min(lengths), thrust, present=scenario)
+    base = DesignTask(scenario, (), objective, demands, min(lengths), thrust, present=scenario)
     paces = [pace(scenario, period) for period in periods] or [{}]
     tasks = [paced(base, new, wave_speed, inner=inner) for new in paces]
     tell = progress or (lambda share: None)
@@ -126,7 +126,7 @@ def design(
     best = min(range(len(tasks)), key=lambda k: _rank(outcomes[k], limits, objective))
     task, found = tasks[best], outcomes[best]
     admit(found.side.scenario)
-    before = side(base, {}, lambda x: tell(SEARCH + (1.0 - SEARCH) * x))
+    before = evaluate_gains(base, {}, lambda x: tell(SEARCH + (1.0 - SEARCH) * x))
     betas = np.geomspace(1e-3, 1.0, BETAS) * wave_speed
     scores = _scores_over(betas, task, found.values)
     motor_gains_kept = bool(inner_knobs(task.scenario)) and not inner
@@ -143,18 +143,18 @@ def design(
     )
 
 
-def _rank(found: Outcome, limits: Limits, objective: Objective) -> tuple[tuple[bool, bool, float], float]:
+def _rank(found: DesignOutcome, limits: Limits, objective: Objective) -> tuple[tuple[bool, bool, float], float]:
     """What of two periods is the better: all that was demanded comes first, then the objective."""
     score = found.side.score
     return badness(found.side, limits), score.compliance if objective == "rejection" else score.reflection
 
 
-def _scores_over(betas: np.ndarray, task: Task, values: Values) -> list[Score]:
-    judge = task.judge()
-    return [judge.score(task.loop(values | {"control.law.slope_gain": float(beta)})) for beta in betas]
+def _scores_over(betas: np.ndarray, task: DesignTask, values: Values) -> list[Score]:
+    scorer = task.scorer()
+    return [scorer.score(task.loop(values | {"control.law.slope_gain": float(beta)})) for beta in betas]
 
 
-def _missing(found: Outcome, limits: Limits) -> Iterator[str]:
+def _missing(found: DesignOutcome, limits: Limits) -> Iterator[str]:
     """What the new gains do not reach, and what was searched for it."""
     after = found.side
     change, frequency = after.score.binding
@@ -173,7 +173,7 @@ def _missing(found: Outcome, limits: Limits) -> Iterator[str]:
         yield f"a search for the least noise of a voltage ended at {found.quietest.noise.rms:.3g} V, margins {margins}"
 
 
-def _limited_by(task: Task, found: Outcome, limits: Limits, *, motor_gains_kept: bool) -> Iterator[str]:
+def _limited_by(task: DesignTask, found: DesignOutcome, limits: Limits, *, motor_gains_kept: bool) -> Iterator[str]:
     """What keeps the objective from being served better."""
     if found.limited and found.side is not found.unlimited:
         yield (
@@ -191,15 +191,15 @@ def _limited_by(task: Task, found: Outcome, limits: Limits, *, motor_gains_kept:
         yield "the gains of the motor loops, which were kept: --inner chooses them, too, and may serve better"
 
 
-def _used_up_first(task: Task, after: Side) -> str:
+def _used_up_first(task: DesignTask, after: Evaluation) -> str:
     """Which margin is used up first, and by whose lag."""
-    judge, loop = task.judge(), sampled_loop(after.scenario, task.thrust)
+    scorer, loop = task.scorer(), sampled_loop(after.scenario, task.thrust)
     change, frequency = after.score.binding
     where = f"the margin '{change}' at {frequency:.3g} rad/s is used up first"
     if not loop.drives:
         return f"{where}; the thruster is ideal"
-    motors, hold = judge.motor_lag(loop, frequency)
-    ideal = judge.score(sampled_loop(after.scenario.model_copy(update={"ideal_thruster": True}), task.thrust))
+    motors, hold = scorer.motor_lag(loop, frequency)
+    ideal = scorer.score(sampled_loop(after.scenario.model_copy(update={"ideal_thruster": True}), task.thrust))
     lag = f"the motors lag by {np.degrees(motors):.0f} deg, the sampling by {np.degrees(hold):.0f} deg"
     better = "more" if ideal.trip < after.score.trip else "no more"
     return f"{where}; there {lag}; with the same gains ideal thrusters would leave {better} of it"
@@ -211,7 +211,7 @@ def check_design(scenario: Scenario) -> None:
     Raises:
         ScenarioError: no boundary law, or one without its observers.
     """
-    check(scenario)
+    check_loop(scenario)
     control, law = scenario.control, scenario.control.law
     observed = control.velocity_observer and control.slope_observer and control.disturbance_observer
     if not law.boundary_gains or law.reads_rates or not observed:

@@ -16,9 +16,9 @@ from umbilical.stability.judgement import usual_lengths
 from umbilical.stability.margins import MarginReport, margins
 from umbilical.stability.sampled import sampled_loop
 from umbilical.synthesis.noise import NO_NOISE, VoltageNoise, voltage_noise
-from umbilical.synthesis.score import Demands, Effort, Judge, Score
-from umbilical.synthesis.search import Task, Values, explore, follow, rounded
-from umbilical.synthesis.trial import Trial, attempt
+from umbilical.synthesis.score import Demands, Effort, Score, Scorer
+from umbilical.synthesis.search import DesignTask, Values, explore, refine, to_digits
+from umbilical.synthesis.trial import DesignTrial, try_gains
 
 GENERATIONS = 90
 ROUNDS = 4
@@ -57,7 +57,7 @@ class Limits:
     chatter: float = 0.05
     noise: float = 3.0
 
-    def exceeded(self, side: Side) -> Excess:
+    def exceeded(self, side: Evaluation) -> Excess:
         """What is too large; nothing is, where there is no number."""
         trial, noise = side.trial, side.noise.rms
         limits = {
@@ -70,7 +70,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Side:
+class Evaluation:
     """A scenario before or after: its score, its margins at every length that is asked for, its trial, its noise.
 
     The noise is the worst of all these lengths, at rest, at the operating thrust and at the trial's highest speed.
@@ -80,7 +80,7 @@ class Side:
     demands: Demands
     score: Score
     report: MarginReport
-    trial: Trial
+    trial: DesignTrial
     noise: VoltageNoise = NO_NOISE
 
     @property
@@ -96,7 +96,7 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class DesignOutcome:
     """What the rounds have led to.
 
     Attributes:
@@ -108,38 +108,38 @@ class Outcome:
     """
 
     values: Values
-    side: Side
-    unlimited: Side
+    side: Evaluation
+    unlimited: Evaluation
     limited: tuple[str, ...]
-    quietest: Side | None = None
+    quietest: Evaluation | None = None
 
 
-def side(task: Task, values: Values, progress: Callable[[float], None] | None = None) -> Side:
+def evaluate_gains(task: DesignTask, values: Values, progress: Callable[[float], None] | None = None) -> Evaluation:
     """A scenario with some values, judged and tried."""
     new = task.scenario.replace(values)
-    score = Judge(task.scenario, task.shortest, task.demands).score(sampled_loop(new, task.thrust))
-    trial = attempt(new, progress=progress)
+    score = Scorer(task.scenario, task.shortest, task.demands).score(sampled_loop(new, task.thrust))
+    trial = try_gains(new, progress=progress)
     fastest = sum(abs(motor.thrust_coefficient) for motor in new.motors) * trial.speed_peak**2
     noise = worst_noise(task, new, [thrust for thrust in (0.0, task.thrust, fastest) if np.isfinite(thrust)])
-    return Side(new, task.demands, score, _report(task, values), trial, noise)
+    return Evaluation(new, task.demands, score, _report(task, values), trial, noise)
 
 
-def worst_noise(task: Task, scenario: Scenario, thrusts: Sequence[float]) -> VoltageNoise:
+def worst_noise(task: DesignTask, scenario: Scenario, thrusts: Sequence[float]) -> VoltageNoise:
     """The largest noise of a voltage at the lengths of the run and at some thrusts, N."""
-    judges = [Judge(scenario, length, task.demands) for length in usual_lengths(scenario)]
-    return max(voltage_noise(judge, sampled_loop(scenario, task.thrust), scenario, thrusts) for judge in judges)
+    scorers = [Scorer(scenario, length, task.demands) for length in usual_lengths(scenario)]
+    return max(voltage_noise(scorer, sampled_loop(scenario, task.thrust), scenario, thrusts) for scorer in scorers)
 
 
-def _report(task: Task, values: Values) -> MarginReport:
+def _report(task: DesignTask, values: Values) -> MarginReport:
     return margins(task.scenario.replace(values), operating_thrust=task.thrust)
 
 
-def design_within(task: Task, limits: Limits, progress: Callable[[float], None]) -> Outcome:
+def design_within(task: DesignTask, limits: Limits, progress: Callable[[float], None]) -> DesignOutcome:
     """The best gains of a task that keep the limits, or those that exceed them least."""
     noisy = np.isfinite(limits.noise) and worst_noise(task, task.scenario, (0.0, task.thrust)).rms > 0.0
     if noisy:
         task = replace(task, noise_ceiling=SAFE_NOISE * limits.noise)
-    tried: list[tuple[Values, Side]] = []
+    tried: list[tuple[Values, Evaluation]] = []
     names: set[str] = set()
     done, quietest = 0.0, None
     for _ in range(ROUNDS):
@@ -157,45 +157,45 @@ def design_within(task: Task, limits: Limits, progress: Callable[[float], None])
         tried.append(_round(calmest, tried[0][0], _part(progress, done, 1.0 - done)))
         quietest = tried[-1][1]
     values, best = min(tried, key=lambda pair: badness(pair[1], limits))
-    return Outcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else (), quietest)
+    return DesignOutcome(values, best, tried[0][1], tuple(sorted(names)) if len(tried) > 1 else (), quietest)
 
 
-def _round(task: Task, begun: Values | None, progress: Callable[[float], None]) -> tuple[Values, Side]:
+def _round(task: DesignTask, begun: Values | None, progress: Callable[[float], None]) -> tuple[Values, Evaluation]:
     eager = replace(task, demands=task.demands.beyond(RESERVES[0]))
     near = explore(eager, generations=GENERATIONS, begun=begun, progress=_part(progress, 0.0, SEARCH))
     values = _settled(task, near, _part(progress, SEARCH, STEPS))
-    return values, side(task, values, _part(progress, 1.0 - TRIAL, TRIAL))
+    return values, evaluate_gains(task, values, _part(progress, 1.0 - TRIAL, TRIAL))
 
 
-def _settled(task: Task, near: Values, progress: Callable[[float], None]) -> Values:
+def _settled(task: DesignTask, near: Values, progress: Callable[[float], None]) -> Values:
     """Rounded gains that keep the demands: at the edge of what is allowed, and further inside where they do not."""
     values = near
     for reserves in RESERVES:
-        values = follow(replace(task, demands=task.demands.beyond(reserves)), near, progress)
+        values = refine(replace(task, demands=task.demands.beyond(reserves)), near, progress)
         if _keeps(task, values):
             break
     return values
 
 
-def _keeps(task: Task, values: Values) -> bool:
-    if not task.judge().score(task.loop(values)).sound:
+def _keeps(task: DesignTask, values: Values) -> bool:
+    if not task.scorer().score(task.loop(values)).sound:
         return False
     period = task.scenario.control.period
     return all(task.demands.met_by(j.margins, period) for j in _report(task, values).judgements)
 
 
-def _lowered(task: Task, now: Side, over: Excess) -> dict[str, Effort | float]:
+def _lowered(task: DesignTask, now: Evaluation, over: Excess) -> dict[str, Effort | float]:
     """Ceilings under which the next gains should keep the limits that these exceed, or run to the end."""
     shares = {name: SAFER * limit / x for name, (x, limit) in over.items()}
     quieter = shares.pop("noise", 1.0)
     if not now.trial.completed:
         shares = {"voltage": TAMER, "speed": TAMER}
-    efforts = {name: rounded(x * getattr(now.score.effort, name)) for name, x in shares.items()}
+    efforts = {name: to_digits(x * getattr(now.score.effort, name)) for name, x in shares.items()}
     ceilings = Effort(**task.ceilings._asdict() | efforts)
-    return {"ceilings": ceilings, "noise_ceiling": rounded(quieter * task.noise_ceiling)}
+    return {"ceilings": ceilings, "noise_ceiling": to_digits(quieter * task.noise_ceiling)}
 
 
-def badness(found: Side, limits: Limits) -> tuple[bool, bool, float]:
+def badness(found: Evaluation, limits: Limits) -> tuple[bool, bool, float]:
     """Margins come first, then a run to its end, then the largest excess over a limit."""
     excess = max((x / limit for x, limit in limits.exceeded(found).values()), default=1.0)
     return (not found.kept, not found.trial.completed, excess)

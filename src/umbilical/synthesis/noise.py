@@ -19,9 +19,9 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import Waves
+from umbilical.stability.impedance import RovWaves
 from umbilical.stability.sampled import SampledLoop, drives_at, loop_response
-from umbilical.synthesis.score import ARC, Judge
+from umbilical.synthesis.score import ARC, Scorer
 from umbilical.synthesis.trial import CHATTER
 
 LARGEST_RETURN = 1.0 - 1e-6
@@ -59,43 +59,43 @@ def reading_noise(scenario: Scenario) -> np.ndarray:
     return np.array([np.hypot(c.noise, c.resolution / np.sqrt(12.0)) for c in channels])
 
 
-def voltage_noise(judge: Judge, loop: SampledLoop, scenario: Scenario, thrusts: Sequence[float]) -> VoltageNoise:
+def voltage_noise(scorer: Scorer, loop: SampledLoop, scenario: Scenario, thrusts: Sequence[float]) -> VoltageNoise:
     """The largest noise of a voltage above 10 Hz at some steady thrusts.
 
     Args:
-        judge: of the cable.
+        scorer: of the cable.
         loop: of the scenario, near the thrust at which its margins are judged.
         scenario: its sensors, motors and gains.
         thrusts: N.
     """
     deviations = reading_noise(scenario)
-    w = np.geomspace(2.0 * np.pi * CHATTER, np.pi / loop.period, judge.w.size // 2)
+    w = np.geomspace(2.0 * np.pi * CHATTER, np.pi / loop.period, scorer.w.size // 2)
     if not deviations.any() or not loop.drives or w[0] >= w[-1]:
         return NO_NOISE
-    commanded = commanded_spectrum(judge, loop, deviations[:4])
-    spread = float(np.sqrt(np.trapezoid(commanded, judge.w)))
-    held = _held(loop, judge.w, commanded, w)
+    commanded = commanded_spectrum(scorer, loop, deviations[:4])
+    spread = float(np.sqrt(np.trapezoid(commanded, scorer.w)))
+    held = _held(loop, scorer.w, commanded, w)
     found = [_rms(scenario, thrust, spread, w, held, deviations[4:]) for thrust in thrusts]
-    return VoltageNoise(*max(zip(found, thrusts, strict=True)), judge.cable.length)
+    return VoltageNoise(*max(zip(found, thrusts, strict=True)), scorer.cable.length)
 
 
-def commanded_spectrum(judge: Judge, loop: SampledLoop, deviations: np.ndarray) -> np.ndarray:
-    """Spectrum of the commanded thrust at the judge's frequencies, N2 s/rad: its integral is the variance.
+def commanded_spectrum(scorer: Scorer, loop: SampledLoop, deviations: np.ndarray) -> np.ndarray:
+    """Spectrum of the commanded thrust at the scorer's frequencies, N2 s/rad: its integral is the variance.
 
     Nothing below the band of the first modes: that slow, the ROV follows its sensors.
 
     Args:
-        judge, loop: cable and loop.
+        scorer, loop: cable and loop.
         deviations: of the four readings at the ROV, shape (4,).
     """
-    p = 1j * judge.w
-    r = loop_response(judge.cable, loop, p, Waves(*(part[ARC:] for part in judge.met)), judge.aliases)
+    p = 1j * scorer.w
+    r = loop_response(scorer.cable, loop, p, RovWaves(*(part[ARC:] for part in scorer.met)), scorer.aliases)
     gains = loop.law.response(np.exp(p * loop.outer_period))[:, 0, :]
     opened = np.abs(gains / (1.0 - r.up2 / r.up1)[:, None]) ** 2 @ deviations**2
     reflection = r.reflection()
     returned = np.minimum(np.abs(r.echo * reflection) ** 2, LARGEST_RETURN)
     echoes = 1.0 + np.abs(r.echo * (reflection + r.down1 / r.up1)) ** 2 / (1.0 - returned)
-    return np.where(judge.w >= judge.w[judge.band][0], opened * echoes * loop.outer_period / np.pi, 0.0)
+    return np.where(scorer.w >= scorer.w[scorer.band][0], opened * echoes * loop.outer_period / np.pi, 0.0)
 
 
 def _held(loop: SampledLoop, w: np.ndarray, spectrum: np.ndarray, fast: np.ndarray) -> np.ndarray:

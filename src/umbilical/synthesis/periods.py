@@ -8,7 +8,7 @@ from dataclasses import replace
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.scenario.scenario import Scenario
-from umbilical.synthesis.search import Task, Values, inner_knobs, outer_knobs
+from umbilical.synthesis.search import DesignTask, Values, inner_knobs, outer_knobs
 
 
 def pace(scenario: Scenario, period: float) -> Values:
@@ -18,7 +18,7 @@ def pace(scenario: Scenario, period: float) -> Values:
     return {"control.period": period} | ({"control.outer_period": ratio * period} if outer else {})
 
 
-def paced(base: Task, new: Values, wave_speed: float, *, inner: bool) -> Task:
+def paced(base: DesignTask, new: Values, wave_speed: float, *, inner: bool) -> DesignTask:
     """A task at other periods, with the gains that may be chosen there.
 
     Raises:
@@ -32,7 +32,7 @@ def paced(base: Task, new: Values, wave_speed: float, *, inner: bool) -> Task:
     return task
 
 
-def _cramped(task: Task) -> Iterator[Problem]:
+def _cramped(task: DesignTask) -> Iterator[Problem]:
     """Gains without a place between their bounds."""
     reason = f"a period of {task.scenario.control.period:g} s leaves nothing between its bounds"
     for knob in task.knobs:
@@ -41,7 +41,7 @@ def _cramped(task: Task) -> Iterator[Problem]:
             yield Problem(knob.key, span, "the lower end below the upper", reason, "choose a shorter control.period")
 
 
-def _kept_gains(task: Task) -> Iterator[Problem]:
+def _kept_gains(task: DesignTask) -> Iterator[Problem]:
     """What does not fit the new periods and is not chosen anew either."""
     chosen = {knob.key for knob in task.knobs}
     try:

@@ -17,8 +17,8 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import HangingCable, hanging_cable, waves
-from umbilical.stability.limits import Margins, later, scaled, turned
+from umbilical.stability.impedance import FixedLengthCable, hanging_cable, waves_at_rov
+from umbilical.stability.limits import Margins, delay_factor, gain_factor, phase_factor
 from umbilical.stability.nyquist import Factor, unchanged
 from umbilical.stability.sampled import ALIASES, LoopResponse, SampledLoop, delivered, demands_to_volts, loop_response
 from umbilical.synthesis.trial import CHATTER
@@ -107,16 +107,16 @@ def changes(demands: Demands, period: float) -> dict[str, Factor]:
     """What the loop shall survive, by name."""
     return {
         "as it is": unchanged,
-        "more thrust": scaled(demands.gain),
-        "less thrust": scaled(1.0 / demands.gain),
-        "lag": turned(demands.phase),
-        "lead": turned(-demands.phase),
-        "delay": later(demands.periods * period),
-        "half the delay": later(0.5 * demands.periods * period),
+        "more thrust": gain_factor(demands.gain),
+        "less thrust": gain_factor(1.0 / demands.gain),
+        "lag": phase_factor(demands.phase),
+        "lead": phase_factor(-demands.phase),
+        "delay": delay_factor(demands.periods * period),
+        "half the delay": delay_factor(0.5 * demands.periods * period),
     }
 
 
-class Judge:
+class Scorer:
     """Scores loops of one scenario's cable; what does not depend on the gains is computed once.
 
     Args:
@@ -131,7 +131,7 @@ class Judge:
         self, scenario: Scenario, shortest: float, demands: Demands, *, quick: bool = False, efforts: bool = True
     ) -> None:
         self.efforts = efforts
-        self.cable: HangingCable = hanging_cable(scenario, shortest)
+        self.cable: FixedLengthCable = hanging_cable(scenario, shortest)
         self.changes = changes(demands, scenario.control.period)
         self.aliases = FEW_ALIASES if quick else ALIASES
         trip = self.cable.round_trip
@@ -139,7 +139,7 @@ class Judge:
         self.w = np.geomspace(0.02 * np.pi / trip, 0.999 * np.pi / outer, FEW_POINTS if quick else POINTS)
         arc = self.w[0] * np.exp(0.5j * np.pi * np.linspace(0.0, 1.0, ARC))
         self.p = np.concatenate([arc, 1j * self.w])
-        self.met = waves(self.cable, self.p)
+        self.met = waves_at_rov(self.cable, self.p)
         self.loudness = np.abs(self.met.echo[ARC:])
         self.band = (self.w > FIRST_MODES[0] * 2.0 * np.pi / trip) & (self.w < FIRST_MODES[1] * 2.0 * np.pi / trip)
 

@@ -17,7 +17,7 @@ from umbilical.relations.water import payload_inertia
 from umbilical.scenario.scenario import Scenario
 from umbilical.stability.sampled import SampledLoop, sampled_loop
 from umbilical.synthesis.noise import voltage_noise
-from umbilical.synthesis.score import SPARE, Demands, Effort, Judge, Score
+from umbilical.synthesis.score import SPARE, Demands, Effort, Score, Scorer
 
 Objective = Literal["ringdown", "rejection", "both"]
 Values = dict[str, float]
@@ -89,7 +89,7 @@ def inner_knobs(scenario: Scenario) -> list[Knob]:
 
 
 @dataclass(frozen=True)
-class Task:
+class DesignTask:
     """What is searched for, and within which bounds.
 
     Attributes:
@@ -117,9 +117,9 @@ class Task:
     noise_ceiling: float = np.inf
     least_noise: bool = False
 
-    def judge(self, *, quick: bool = False) -> Judge:
-        """Judge of a loop by the demands; of its effort where ceilings ask for that."""
-        return Judge(self.scenario, self.shortest, self.demands, quick=quick, efforts=self.ceilings != NO_CEILINGS)
+    def scorer(self, *, quick: bool = False) -> Scorer:
+        """Scorer of a loop by the demands; of its effort where ceilings ask for that."""
+        return Scorer(self.scenario, self.shortest, self.demands, quick=quick, efforts=self.ceilings != NO_CEILINGS)
 
     def loop(self, values: dict[str, float]) -> SampledLoop:
         """The loop with other values."""
@@ -136,7 +136,7 @@ class Task:
 
 
 def explore(
-    task: Task, *, generations: int, begun: Values | None = None, progress: Callable[[float], None] | None = None
+    task: DesignTask, *, generations: int, begun: Values | None = None, progress: Callable[[float], None] | None = None
 ) -> Values:
     """Gains near the best ones among those with the demanded margins, ranked quickly.
 
@@ -149,7 +149,7 @@ def explore(
     from scipy.optimize import differential_evolution
 
     point = _point(task, begun or {knob.key: _present(task.scenario, knob.key) for knob in task.knobs})
-    scores = Scores(task, task.judge(quick=True), generations, progress)
+    scores = Scores(task, task.scorer(quick=True), generations, progress)
     best = differential_evolution(
         scores.cost, task.bounds, x0=point, popsize=MEMBERS, **DETERMINISTIC, maxiter=generations, tol=0.0,
         polish=False, callback=scores.generation, mutation=(0.5, 1.0), recombination=0.7,
@@ -157,11 +157,11 @@ def explore(
     return task.values(best.x)
 
 
-def follow(task: Task, begun: Values, progress: Callable[[float], None] | None = None) -> Values:
+def refine(task: DesignTask, begun: Values, progress: Callable[[float], None] | None = None) -> Values:
     """From gains near the best ones to the edge of what is allowed, judged on many frequencies, and rounded."""
-    scores = Scores(task, task.judge(), LOCAL_STEPS, progress)
+    scores = Scores(task, task.scorer(), LOCAL_STEPS, progress)
     best = _stepwise(scores, _point(task, begun), *_inside(task))
-    return {key: rounded(value) for key, value in task.values(best).items()}
+    return {key: to_digits(value) for key, value in task.values(best).items()}
 
 
 def _stepwise(scores: Scores, x: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -186,13 +186,13 @@ def _some(draw: np.random.Generator, knobs: int) -> np.ndarray:
     return np.where(chosen, draw.standard_normal(knobs), 0.0)
 
 
-def _inside(task: Task) -> np.ndarray:
+def _inside(task: DesignTask) -> np.ndarray:
     """The bounds, a little narrower, so that rounding takes no point out again; shape (2, knobs)."""
     low, high = np.transpose(task.bounds)
     return np.stack([low + 1e-9, high - 1e-9])
 
 
-def _point(task: Task, values: Values) -> np.ndarray:
+def _point(task: DesignTask, values: Values) -> np.ndarray:
     """The logarithms of values, moved just inside the bounds."""
     return np.clip(np.log([values[knob.key] for knob in task.knobs]), *_inside(task))
 
@@ -201,9 +201,9 @@ class Scores:
     """What a search asks of a point in the logarithms of the knobs; every score is remembered."""
 
     def __init__(
-        self, task: Task, judge: Judge, generations: int = 0, progress: Callable[[float], None] | None = None
+        self, task: DesignTask, scorer: Scorer, generations: int = 0, progress: Callable[[float], None] | None = None
     ) -> None:
-        self._task, self._judge = task, judge
+        self._task, self._judge = task, scorer
         self._generations, self._progress = generations, progress
         self._before = self._judge.score(sampled_loop(task.present or task.scenario, task.thrust))
         self._known: dict[bytes, Score] = {}
@@ -282,10 +282,10 @@ def changed(scenario: Scenario, values: Values) -> Scenario:
     return scenario.model_copy(update={"control": control})
 
 
-def rounded(value: float) -> float:
+def to_digits(value: float) -> float:
     """A number to :data:`DIGITS` significant digits.
 
-    >>> rounded(0.00123456)
+    >>> to_digits(0.00123456)
     0.001235
     """
     return float(f"{value:.{DIGITS}g}")

@@ -21,7 +21,7 @@ CHATTER = 10.0
 
 
 @dataclass(frozen=True)
-class Trial:
+class DesignTrial:
     """One simulation.
 
     Attributes:
@@ -46,7 +46,7 @@ class Trial:
         return self.run.status is Status.COMPLETED
 
 
-class Listener:
+class RecordingCascade:
     """The built-in controller, with every voltage it sets written down."""
 
     def __init__(self, scenario: Scenario) -> None:
@@ -66,14 +66,14 @@ class Listener:
         return command, state
 
 
-def attempt(scenario: Scenario, *, progress: Callable[[float], None] | None = None) -> Trial:
+def try_gains(scenario: Scenario, *, progress: Callable[[float], None] | None = None) -> DesignTrial:
     """Simulate a scenario and read from it what a design is judged by; a run that diverges is a result too."""
-    listener = Listener(scenario)
+    listener = RecordingCascade(scenario)
     run = simulate(scenario, listener, progress=progress)
     late = run["time"].values >= LATE * scenario.duration
     middle = np.abs(run["displacement"].interp(sigma=0.5).values[late])
     metrics = run.metrics
-    return Trial(
+    return DesignTrial(
         run=run,
         late_mid_peak=float(middle.max(initial=0.0)) if run.status is Status.COMPLETED else np.nan,
         tip_peak=metrics["tip_peak"],
@@ -83,7 +83,7 @@ def attempt(scenario: Scenario, *, progress: Callable[[float], None] | None = No
     )
 
 
-def chatter(listener: Listener, scenario: Scenario) -> float:
+def chatter(listener: RecordingCascade, scenario: Scenario) -> float:
     """Largest RMS of a voltage above 10 Hz in the last third of the run, V; 0 without motors."""
     if not listener.voltages:
         return 0.0

@@ -15,7 +15,7 @@ from scipy import sparse
 from umbilical.engine.linear import linearise_plant
 from umbilical.faces.text import markdown
 from umbilical.scenario.scenario import Scenario
-from umbilical.stability.impedance import hanging_cable, payload_stiffness, waves
+from umbilical.stability.impedance import hanging_cable, payload_stiffness, waves_at_rov
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, at_least
 from umbilical.verify.engine import sine
@@ -65,7 +65,7 @@ def _shaken(water: _Water, force: float = 1.0, frequency: float = 1.0) -> Scenar
 def _by_margins(water: _Water, frequency: float) -> complex:
     """Of the exact cable with drag as `margins` takes it, m/N."""
     cable, p = hanging_cable(_shaken(water), LENGTH), np.array([1j * frequency])
-    met = waves(cable, p)
+    met = waves_at_rov(cable, p)
     pull = -(met.up + met.echo * met.down) / (1.0 + met.echo)
     return complex((1.0 / (payload_stiffness(cable, p) + pull))[0])
 

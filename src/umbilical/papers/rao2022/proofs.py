@@ -10,10 +10,10 @@ import numpy as np
 from umbilical import Scenario, certify
 from umbilical.certificate import largest_bounds
 from umbilical.certificate.advice import best_rate
-from umbilical.certificate.setting import loop_of, sampled, slab_edges
+from umbilical.certificate.setting import ideal_constants, sampled, slab_edges
 from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import judge, usual_lengths, usual_thrust
-from umbilical.stability.nyquist import stability, sweep
+from umbilical.stability.judgement import margins_at, usual_lengths, usual_thrust
+from umbilical.stability.nyquist import stability, sweep_loop
 from umbilical.stability.sampled import sampled_loop
 from umbilical.studies.engines import in_order
 
@@ -55,7 +55,7 @@ def prove(scenario: Scenario) -> Proofs:
     lengths = usual_lengths(scenario)
     still = scenario.replace({"winch": {"law": "constant", "length": lengths[-1]}})
     ours, fixed = in_order(lambda one: certify(one, fix=False), (scenario, still))
-    bounds, cascade = largest_bounds(fixed), judge(scenario, lengths[0])
+    bounds, cascade = largest_bounds(fixed), margins_at(scenario, lengths[0])
     return Proofs(
         rate=ours.rate,
         fixed_rate=fixed.rate if fixed.holds else float("nan"),
@@ -71,7 +71,10 @@ def prove(scenario: Scenario) -> Proofs:
 def least_certified(scenario: Scenario) -> float:
     """Slope gain from which on a positive rate of V is proved over the run of a scenario, m/s; nan if none is."""
     winch = scenario.winch
-    loop, motion = loop_of(scenario), sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration))
+    loop, motion = (
+        ideal_constants(scenario),
+        sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration)),
+    )
     found = edge(lambda beta: best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0, CERTIFIED, HALVINGS[0])
     proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), fix=False).holds
     return found if proved else float("nan")
@@ -80,7 +83,7 @@ def least_certified(scenario: Scenario) -> float:
 def cascade_stable(scenario: Scenario) -> bool:
     """Whether the linearised sampled loop is stable at the shortest length of the run: observers, motors and all."""
     loop = sampled_loop(scenario, usual_thrust(scenario))
-    return stability(sweep(hanging_cable(scenario, usual_lengths(scenario)[0]), loop)).unstable == 0
+    return stability(sweep_loop(hanging_cable(scenario, usual_lengths(scenario)[0]), loop)).unstable == 0
 
 
 def edge(holds: Callable[[float], bool], between: tuple[float, float], halvings: int) -> float:
