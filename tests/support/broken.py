@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -16,8 +17,7 @@ from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
 from umbilical.control.outer import boundary
-from umbilical.plant import cable, exogenous, faults, orbital, seaway, signals, winch
-from umbilical.plant.checks import motion
+from umbilical.plant import cable, exogenous, faults, signals, winch
 from umbilical.plant.forces import drag
 from umbilical.relations import tension
 from umbilical.scenario.document import look_up
@@ -49,8 +49,15 @@ def half_the_inertia_at_the_tip(scenario: Scenario) -> Mapping[str, Any]:
 
 def forget() -> None:
     """Drop what the engine keeps from run to run: it depends on the functions that are broken here."""
-    for kept in (exogenous._winch_at, exogenous._signal_at, motion._sampled_top, seaway._sheave, orbital._orbits):
-        kept.cache_clear()
+    for name, module in tuple(sys.modules.items()):
+        if name.startswith(("umbilical.plant.", "umbilical.sea.", "umbilical.relations.")):
+            for kept in tuple(vars(module).values()):
+                getattr(kept, "cache_clear", nothing_kept)()
+    vars(exogenous._last).clear()
+
+
+def nothing_kept() -> None:
+    """There is no cache to clear."""
 
 
 def nothing(patch: pytest.MonkeyPatch) -> None:
