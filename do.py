@@ -30,6 +30,8 @@ SUPPORTED = ("3.11", "3.12", "3.13")
 TWO_AT_A_TIME = ("-n", "2", "--dist", "loadfile")  # tests of a file may follow each other
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 """Small matrices on many threads take ten times longer when the machine is busy."""
+OUTSIDE = getattr(sys, "_base_executable", None) or sys.executable
+"""The Python that .venv is made with: not its own, should it be active, for it goes with the old one."""
 
 
 def call(*command: str | Path, **environment: str) -> bool:
@@ -77,10 +79,10 @@ def _make_venv() -> tuple[str | Path, ...]:
     Debian splits ensurepip from Python; there, a pip outside fills the environment instead.
     """
     if importlib.util.find_spec("ensurepip"):
-        made, pip = call(sys.executable, "-m", "venv", VENV), (PYTHON, "-m", "pip")
+        made, pip = call(OUTSIDE, "-m", "venv", VENV), (PYTHON, "-m", "pip")
     elif importlib.util.find_spec("pip"):
-        made = call(sys.executable, "-m", "venv", "--without-pip", VENV)
-        pip = (sys.executable, "-m", "pip", "--python", PYTHON)
+        made = call(OUTSIDE, "-m", "venv", "--without-pip", VENV)
+        pip = (OUTSIDE, "-m", "pip", "--python", PYTHON)
     else:
         raise SystemExit("do.py: this Python has neither ensurepip nor pip; on Debian: apt install python3-venv")
     if not made:
