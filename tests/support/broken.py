@@ -17,7 +17,7 @@ from umbilical.control.motor import disturbance as of_motor
 from umbilical.control.observers import disturbance as of_payload
 from umbilical.control.observers import high_gain
 from umbilical.control.outer import boundary
-from umbilical.plant import cable, exogenous, faults, signals, winch
+from umbilical.plant import cable, faults, signals, winch
 from umbilical.plant.forces import drag
 from umbilical.relations import tension
 from umbilical.scenario.document import look_up
@@ -53,7 +53,6 @@ def forget() -> None:
         if name.startswith(("umbilical.plant.", "umbilical.sea.", "umbilical.relations.")):
             for kept in tuple(vars(module).values()):
                 getattr(kept, "cache_clear", nothing_kept)()
-    vars(exogenous._last).clear()
 
 
 def nothing_kept() -> None:

@@ -14,7 +14,7 @@ from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged,
 from umbilical.engine.saturation import saturation_notices
 from umbilical.engine.schedule import Clock, Stretch
 from umbilical.engine.setup import set_up
-from umbilical.plant.exogenous import Outside, shared_outside
+from umbilical.plant.exogenous import Outside
 from umbilical.run import Run
 from umbilical.scenario.scenario import Scenario
 
@@ -104,8 +104,7 @@ class StringModel:
 
     def __init__(self, scenario: Scenario, *, stored: bool = True, held: bool = False) -> None:
         self._scenario, self._setup = scenario, set_up(scenario, stored=stored, held=held)
-        outside = Outside if stored else shared_outside
-        self._outside, self._held = outside(scenario), cascade.with_known_factors(self._setup.settings)
+        self._outside, self._held = Outside(scenario), cascade.with_known_factors(self._setup.settings)
         self.clock, self.every = self._setup.clock, self._setup.record.every
         self.state = self._setup.world.state
 

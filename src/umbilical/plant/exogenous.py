@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from math import inf
-from threading import local
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -54,8 +53,6 @@ class Steps:
 
 
 START, END, MIDDLE = range(3)  # only motors have a middle
-KEPT_STEPS = 100_000
-"""Steps of which a thread keeps what acts from outside for its next run: 60 MB with two motors."""
 
 
 class Exogenous(Frame):
@@ -260,39 +257,6 @@ class Outside:
             for number in sorted(motor for kind, motor in self._faulty if kind == target):
                 rows = _rows(partial(faults.effect, self._scenario.faults, number, target), steps, middle=True)
                 _put(out[:, :, number - 1], names, rows, steps)
-
-
-class SharedOutside(Outside):
-    """Keeps what it sampled, for the next run in the same world."""
-
-    def __init__(self, scenario: Scenario) -> None:
-        super().__init__(scenario)
-        self._kept: dict[Steps, Inputs] = {}
-
-    def sample(self, steps: Steps) -> Inputs:
-        """As :meth:`Outside.sample`, once for each stretch: equal ones are one object."""
-        if (known := self._kept.get(steps)) is not None:
-            return known
-        inputs = super().sample(steps)
-        if steps.shared and sum(each.start.size for each in self._kept) + steps.start.size <= KEPT_STEPS:
-            self._kept[steps] = inputs
-            self._inputs = _empty(self._scenario, 0)  # arrays of its own for the next
-        return inputs
-
-
-_last = local()
-
-
-def shared_outside(scenario: Scenario) -> Outside:
-    """The outside world of a scenario, the last one of this thread if it is the same.
-
-    The arms of a study's member differ in their controllers alone, and sampling the world for each is a sixth of a run.
-    """
-    s = scenario
-    world = s.model, s.duration, s.winch, s.environment, s.cable, s.payload, s.motors, s.faults
-    if getattr(_last, "world", None) != world:
-        _last.world, _last.outside = world, SharedOutside(scenario)
-    return _last.outside
 
 
 def _empty(scenario: Scenario, steps: int) -> Inputs:
