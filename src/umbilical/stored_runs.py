@@ -26,6 +26,7 @@ from umbilical.errors import FileError, ScenarioError
 from umbilical.formats import from_netcdf
 from umbilical.quantities import CHANNELS
 from umbilical.run import CONTROLLER, SNAPS, Run, Status
+from umbilical.scenario.scenario import parse_document
 from umbilical.stored_numbers import METRIC, wrong_times, wrong_values
 
 if TYPE_CHECKING:
@@ -48,8 +49,6 @@ def open_run(path: str | os.PathLike[str]) -> Run:
     >>> umbilical.open_run("run.nc").metrics["tip_peak"] == run.metrics["tip_peak"]
     True
     """
-    from umbilical.scenario.document import parse_document
-
     data = _of_a_run(path)
     try:
         scenario = parse_document(data.attrs["scenario"], f"{path}: the scenario inside")

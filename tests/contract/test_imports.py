@@ -24,11 +24,9 @@ LATER = {
     "plots.figure": {"plant.exogenous"},
     "plots.study": {"studies.sensitivity"},
     "run": {"umbilical"},
-    "scenario.scenario": {"scenario.document", "scenario.inventory", "scenario.text"},
     "screening.lower": {"umbilical"},
     "screening.operate": {"umbilical"},
     "screening.weather": {"umbilical"},
-    "stored_runs": {"scenario.document"},
     "studies.cluster": {"umbilical"},
     "studies.constraints": {"certificate.certify", "stability.judgement"},
     "studies.load": {"studies.results"},
@@ -41,7 +39,6 @@ LATER = {
 """What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would
 be a circle at import."""
 CIRCLES = {
-    frozenset({"scenario.document", "scenario.inventory", "scenario.scenario", "scenario.text"}),
     frozenset({"engine.model", "engine.rope.model"}),
     frozenset(
         {

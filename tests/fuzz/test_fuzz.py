@@ -35,7 +35,7 @@ from tests.fuzz.runner import Hangs, answer, faults
 from umbilical import simulate
 from umbilical.cli.output import EXIT_CODES
 from umbilical.formats import to_netcdf
-from umbilical.scenario.document import validate
+from umbilical.scenario.scenario import validate
 from umbilical.studies.engines import threads
 from umbilical.studies.sweep import sweep
 

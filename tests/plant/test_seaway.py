@@ -128,7 +128,7 @@ def test_the_rope_gets_all_three_directions() -> None:
 
 def test_a_scenario_with_a_sea_is_stored_whole_and_says_what_it_leaves_out() -> None:
     scenario = umbilical.load("ringdown", {"environment.sea": sea(WIND, SWELL), "environment.vessel_ramp": 5.0})
-    assert umbilical.scenario.document.parse_document(scenario.to_toml()) == scenario
+    assert umbilical.scenario.scenario.parse_document(scenario.to_toml()) == scenario
     said = " ".join(map(str, admit(scenario)))
     assert "heave is left out" in said
     assert "surge and sway" in said

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from umbilical.run import Run, Status, assemble
-from umbilical.scenario.document import parse_document
+from umbilical.scenario.scenario import parse_document
 
 SCENARIO = """
 name = "small"

@@ -16,7 +16,8 @@ from umbilical.errors import FileError, ScenarioError
 from umbilical.library import load, preset_names, preset_text
 from umbilical.scenario import document
 from umbilical.scenario.fields import records, word
-from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.scenario import Scenario, parse_document
+from umbilical.scenario.schema import schema_text
 from umbilical.scenario.text import literal
 from umbilical.screening.operation import Operation
 
@@ -50,7 +51,7 @@ EVERYTHING: dict[str, Any] = {
 @pytest.mark.parametrize("name", preset_names())
 def test_text_round_trip(name: str) -> None:
     scenario = load(name)
-    again = document.parse_document(scenario.to_toml())
+    again = parse_document(scenario.to_toml())
     assert again == scenario
     assert again.hash == scenario.hash
     assert hash(again) == hash(scenario)
@@ -58,7 +59,7 @@ def test_text_round_trip(name: str) -> None:
 
 def test_text_round_trip_of_every_kind_of_section() -> None:
     scenario = load("paper", EVERYTHING)
-    assert document.parse_document(scenario.to_toml()) == scenario
+    assert parse_document(scenario.to_toml()) == scenario
 
 
 def test_the_paper_preset_is_the_complete_text() -> None:
@@ -81,7 +82,7 @@ def test_the_text_names_every_key_unit_and_assumption() -> None:
 
 def test_faults_can_be_added_below_the_complete_text() -> None:
     text = preset_text("paper") + '[[faults]]\nkind = "dead"\nmotor = 1\nstart = 5.0\n'
-    assert document.parse_document(text).faults[0].start == 5.0
+    assert parse_document(text).faults[0].start == 5.0
 
 
 @given(
@@ -162,16 +163,16 @@ def test_assignments_without_key_or_value(text: str) -> None:
 
 def test_text_that_is_not_toml_names_the_line() -> None:
     with pytest.raises(FileError, match=r"my\.toml: this is not TOML: .*line 3"):
-        document.parse_document('name = "a"\nduration = 1.0\ncable = [\n', "my.toml")
+        parse_document('name = "a"\nduration = 1.0\ncable = [\n', "my.toml")
 
 
 def test_published_schema_is_current() -> None:
     """If this fails: umbilical schema > docs/scenario.schema.json"""
-    assert PUBLISHED.read_text(encoding="utf-8") == document.schema_text()
+    assert PUBLISHED.read_text(encoding="utf-8") == schema_text()
 
 
 def test_schema_describes_every_record_and_forbids_other_keys() -> None:
-    schema = json.loads(document.schema_text())
+    schema = json.loads(schema_text())
     assert set(schema["properties"]) == {*Scenario.model_fields, "extends"}
     assert schema["additionalProperties"] is False
     assert all(definition["additionalProperties"] is False for definition in schema["$defs"].values())

@@ -16,7 +16,7 @@ from notation import notation
 from paper import paper
 from scenario import scenario
 
-from umbilical.scenario.document import schema_text
+from umbilical.scenario.schema import schema_text
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from writing import code, page, table
 
 from umbilical.library import load, preset_names, preset_text
-from umbilical.scenario.document import look_up, to_dict
+from umbilical.scenario.document import look_up
 from umbilical.scenario.text import literal
 from umbilical.studies.load import load_study, study_names
 
@@ -48,5 +48,5 @@ def assumptions(name: str) -> str:
 def marked(name: str) -> Mapping[str, tuple[str, str]]:
     """Value, as it stands in the file, and reason of every mark of a preset."""
     preset = load(name)
-    data = to_dict(preset)
+    data = preset.to_dict()
     return {key: (literal(look_up(data, key)), reason) for key, reason in preset.assumed.items()}

@@ -155,6 +155,6 @@ def schema(
     A first line "#:schema ./scenario.schema.json" in a scenario names it; `presets --copy` writes both.
     """
     from umbilical import files
-    from umbilical.scenario.document import schema_text
+    from umbilical.scenario.schema import schema_text
 
     print_result(f"schema: {files.write(out, schema_text().encode(), force=force)}" if out else schema_text())

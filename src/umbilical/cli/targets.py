@@ -59,7 +59,7 @@ SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
 
 def schema_beside(path: Path) -> dict[str, str]:
     """Write the schema of scenarios beside one, if there is no file of its name; what was written, by role."""
-    from umbilical.scenario.document import schema_text
+    from umbilical.scenario.schema import schema_text
 
     schema = path.parent / SCHEMA
     return {} if schema.exists() else {"schema": str(files.write(schema, schema_text().encode()))}

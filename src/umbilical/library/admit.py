@@ -13,8 +13,9 @@ from pydantic import TypeAdapter
 from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.library.checks import checks_for
 from umbilical.scenario import Scenario
-from umbilical.scenario.document import freeze, validate
+from umbilical.scenario.document import freeze
 from umbilical.scenario.findings import Finding, Notice
+from umbilical.scenario.scenario import validate
 
 
 def admit(scenario: Scenario) -> tuple[Notice, ...]:

@@ -30,31 +30,17 @@ class Record(BaseModel):
     )
 
 
-def quantity(
-    name: str,
-    default: Any = ...,
-    *,
-    gt: float | None = None,
-    ge: float | None = None,
-    lt: float | None = None,
-    le: float | None = None,
-    reason: str = "",
-    fix: str = "",
-) -> Any:
+def quantity(name: str, default: Any = ..., *, reason: str = "", fix: str = "", **bounds: float) -> Any:
     """A field whose unit, symbol and meaning come from the table of words.
 
     Args:
         name: key of :data:`umbilical.quantities.PARAMETERS`.
         default: as for a pydantic field; omitted, the key is required.
-        gt, ge, lt, le: bounds; without an upper or lower one, :data:`LARGEST` stands in.
         reason: why the bound is there, shown when it is broken.
         fix: what to do when it is broken.
+        bounds: ``gt``, ``ge``, ``lt``, ``le``; without an upper or lower one, :data:`LARGEST` stands in.
     """
-    if lt is None and le is None:
-        le = LARGEST
-    if gt is None and ge is None:
-        ge = -LARGEST
-    return Field(default, gt=gt, ge=ge, lt=lt, le=le, **described(name, reason, fix))
+    return Field(default, **_limits(bounds), **described(name, reason, fix))
 
 
 def described(name: str, reason: str = "", fix: str = "") -> Any:
@@ -68,9 +54,15 @@ def measured(
     unit: str, meaning: str, default: Any = ..., *, reason: str = "", fix: str = "", source: str = "", **bounds: float
 ) -> Any:
     """A field of a number with its unit, meaning and bounds (``gt``, ``ge``, ``lt``, ``le``)."""
-    extra = {"unit": unit, "symbol": "", "source": source, "reason": reason, "fix": fix}
-    limits = {"le": LARGEST} if not {"lt", "le"} & bounds.keys() else {}
-    return Field(default, description=meaning, json_schema_extra=extra, **limits, **bounds)  # type: ignore[call-overload]
+    extra: Any = {"unit": unit, "symbol": "", "source": source, "reason": reason, "fix": fix}
+    return Field(default, description=meaning, json_schema_extra=extra, **_limits(bounds))
+
+
+def _limits(bounds: dict[str, float]) -> Any:
+    """Bounds with :data:`LARGEST` on a side that has none."""
+    upper = {} if {"lt", "le"} & bounds.keys() else {"le": LARGEST}
+    lower = {} if {"gt", "ge"} & bounds.keys() else {"ge": -LARGEST}
+    return upper | lower | bounds
 
 
 def fingerprint(data: dict[str, Any]) -> str:

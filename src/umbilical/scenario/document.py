@@ -1,21 +1,16 @@
-"""A scenario as a document: TOML text, plain data, overrides, its hash and its JSON Schema."""
+"""The plain data of a document: TOML read, one laid over another, values set by dotted keys."""
 
 from __future__ import annotations
 
-import json
 import tomllib
 from collections.abc import Mapping
 from copy import deepcopy
 from numbers import Integral, Real
 from typing import Any
 
-from pydantic import ValidationError
-
 from umbilical.errors import FileError, Problem, ScenarioError
-from umbilical.scenario.base import fingerprint
 from umbilical.scenario.fields import TAGS, place_of
-from umbilical.scenario.problems import abridged, problems_of, shown
-from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.problems import abridged, shown
 
 Data = dict[str, Any]
 _ABSENT = object()
@@ -24,24 +19,6 @@ DEEPEST = 32
 _LARGEST_BITS = 1000
 _TOO_LARGE = "a whole number of hundreds of digits, which no quantity is"
 _TOO_DEEP = f"nested too deeply: no scenario or study has more than {DEEPEST} levels"
-
-
-def parse_document(text: str, origin: str = "scenario") -> Scenario:
-    """Scenario of a complete TOML text, one without ``extends``.
-
-    Args:
-        text: TOML.
-        origin: what to call the text in errors, e.g. a file name.
-
-    Raises:
-        FileError: the text is not TOML; the message names line and column.
-        ScenarioError: it is, but not of a scenario; every problem is listed.
-
-    >>> from umbilical.library import load
-    >>> parse_document(load("paper").to_toml()) == load("paper")
-    True
-    """
-    return validate(read_document(text, origin), origin)
 
 
 def read_document(text: str, origin: str = "scenario") -> Data:
@@ -62,18 +39,6 @@ def read_document(text: str, origin: str = "scenario") -> Data:
     return data
 
 
-def validate(data: Mapping[str, Any], origin: str = "scenario") -> Scenario:
-    """Scenario of plain data; fields are checked one by one, not yet against each other.
-
-    Raises:
-        ScenarioError: with every problem.
-    """
-    try:
-        return Scenario.model_validate(freeze(data))
-    except ValidationError as error:
-        raise ScenarioError(problems_of(error, Scenario), origin) from error
-
-
 def freeze(value: Any) -> Any:
     """The same data as the strict records take it: lists become tuples, numpy's numbers Python's."""
     if isinstance(value, Mapping):
@@ -85,16 +50,6 @@ def freeze(value: Any) -> Any:
     if isinstance(value, Integral):
         return int(value)
     return float(value) if isinstance(value, Real) else value
-
-
-def to_dict(scenario: Scenario) -> Data:
-    """Plain data of a scenario, defaults included, what is left out left out."""
-    return scenario.model_dump(mode="json", exclude_none=True)
-
-
-def scenario_hash(scenario: Scenario) -> str:
-    """SHA-256 of the scenario's canonical JSON."""
-    return fingerprint(to_dict(scenario))
 
 
 def extend(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:
@@ -154,63 +109,27 @@ def assignment(text: str) -> tuple[str, Any]:
     """
     key, equals, value = text.partition("=")
     if not equals or not key.strip():
-        raise ScenarioError(
-            [Problem(key.strip() or "--set", shown(text), "key=value", "one value is set per key", "e.g. duration=10")]
-        )
+        reason, fix = "one value is set per key", "e.g. duration=10"
+        raise ScenarioError([Problem(key.strip() or "--set", shown(text), "key=value", reason, fix)])
     if any("\ud800" <= character <= "\udfff" for character in text):  # bytes that the shell passed on undecoded
         raise ScenarioError([_refused(key.strip(), value, "not UTF-8 text")])
     try:
         return key.strip(), tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key.strip(), value.strip()
-    except RecursionError:
-        raise ScenarioError([_refused(key.strip(), value, _TOO_DEEP)]) from None
-    except ValueError:  # of thousands of digits
-        raise ScenarioError([_refused(key.strip(), value, _TOO_LARGE)]) from None
+    except (RecursionError, ValueError) as error:  # or of thousands of digits
+        reason = _TOO_DEEP if isinstance(error, RecursionError) else _TOO_LARGE
+        raise ScenarioError([_refused(key.strip(), value, reason)]) from None
 
 
 def look_up(data: Any, key: str) -> Any:
     """Value at a dotted key of plain data; raises KeyError where there is none."""
     for step in key.split("."):
-        if isinstance(data, Mapping) and step in data:
-            data = data[step]
-        elif isinstance(data, list | tuple) and (place := place_of(step, len(data))) is not None:
-            data = data[place]
-        else:
+        place = _place(data, step)
+        if place is None or (isinstance(data, Mapping) and place not in data):
             raise KeyError(key)
+        data = data[place]
     return data
-
-
-def json_schema() -> Data:
-    """JSON Schema of a scenario file, for editors.
-
-    Which keys are required depends on what ``extends`` brings along, which a schema cannot follow; it checks
-    names, types and bounds, and loading checks the rest.
-    """
-    schema = Scenario.model_json_schema()
-    required = schema["required"]
-    schema = _relaxed(schema)
-    for definition in schema["$defs"].values():
-        if "file" in definition.get("properties", {}):
-            definition["properties"]["file"]["anyOf"].insert(0, {"type": "string"})  # its name alone
-    schema["properties"]["extends"] = {"type": "string", "description": "preset that this scenario changes"}
-    schema["anyOf"] = [{"required": ["extends"]}, {"required": required}]
-    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema}
-
-
-def schema_text() -> str:
-    """The JSON Schema as it is published in ``docs/scenario.schema.json``."""
-    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
-
-
-def _relaxed(schema: Any) -> Any:
-    if isinstance(schema, list):
-        return [_relaxed(item) for item in schema]
-    if not isinstance(schema, dict):
-        return schema
-    kept = {"anyOf" if key == "oneOf" else key: _relaxed(item) for key, item in schema.items() if key != "required"}
-    kept.pop("discriminator", None)
-    return kept
 
 
 def _merge(base: Mapping[str, Any], changes: Mapping[str, Any]) -> Data:
@@ -249,18 +168,17 @@ def _assign(data: Data, key: str, value: Any) -> Problem | None:
     *path, last = ["assumed", key.partition(".")[2]] if key.startswith("assumed.") else key.split(".")
     table: Any = data
     for step in path:
-        table = _enter(table, step)
-    if isinstance(table, dict):
-        if last in TAGS and isinstance(value, str) and table.get(last, value) != value:
-            table.clear()
-        table[last] = _thaw(value)
-        if value is None:
-            del table[last]
-        return None
-    if isinstance(table, list) and (place := place_of(last, len(table))) is not None:
-        table[place] = _thaw(value)
-        return None
-    return _nowhere(data, key, value)
+        if isinstance(table, dict):
+            table.setdefault(step, {})
+        table = None if (place := _place(table, step)) is None else table[place]
+    if (place := _place(table, last)) is None:
+        return _nowhere(data, key, value)
+    if last in TAGS and isinstance(value, str) and isinstance(table, dict) and table.get(last, value) != value:
+        table.clear()
+    table[place] = _thaw(value)
+    if value is None and isinstance(table, dict):
+        del table[place]
+    return None
 
 
 def _impossible(value: Any, level: int = 0) -> str:
@@ -288,13 +206,11 @@ def _thaw(value: Any) -> Any:
     return [_thaw(item) for item in value] if isinstance(value, list | tuple) else value
 
 
-def _enter(table: Any, step: str) -> Any:
-    """The table or list one step down; a missing table is made, anything else is None."""
-    if isinstance(table, dict):
-        return table.setdefault(step, {})
-    if isinstance(table, list) and (place := place_of(step, len(table))) is not None:
-        return table[place]
-    return None
+def _place(data: Any, step: str) -> Any:
+    """Key or index that a step of a dotted key means in a table or a list; None where it can mean none."""
+    if isinstance(data, Mapping):
+        return step
+    return place_of(step, len(data)) if isinstance(data, list | tuple) else None
 
 
 def _nowhere(data: Data, key: str, value: Any) -> Problem:
@@ -305,6 +221,5 @@ def _nowhere(data: Data, key: str, value: Any) -> Problem:
     if isinstance(found, list):
         bound = f"places 1 to {len(found)} of {parent}" if found else f"no place: {parent} is empty"
         return Problem(abridged(key), shown(value), bound, "lists are numbered from 1", "name a place that exists")
-    return Problem(
-        abridged(key), shown(value), f"{parent} is {shown(found)}", "only tables and lists have parts", "drop it"
-    )
+    bound = f"{parent} is {shown(found)}"
+    return Problem(abridged(key), shown(value), bound, "only tables and lists have parts", "drop it")

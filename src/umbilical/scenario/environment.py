@@ -8,7 +8,7 @@ from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
 from umbilical.scenario.sea import SeaState
-from umbilical.scenario.signals import Signal
+from umbilical.scenario.signals import Signal, signal_field
 from umbilical.scenario.source import FromFile, from_file
 from umbilical.scenario.water import Water
 
@@ -50,20 +50,16 @@ class CableLoad(Record):
     """A load along the cable: a profile over sigma = x/l times a signal of time, N/m."""
 
     profile: Profile
-    signal: Signal = Field(description="how much of the profile acts, over time", json_schema_extra={"unit": "N/m"})
+    signal: Signal = signal_field("N/m", "how much of the profile acts, over time", ...)
 
 
 class Environment(Record):
     """Gravity, loads and the vessel."""
 
     gravity: float = quantity("gravity", gt=0.0, le=100.0, reason="the cable hangs", fix="9.81 m/s2 on earth")
-    payload_force: Signal = Field(
-        default=(), description="external force on the ROV d(t)", json_schema_extra={"unit": "N"}
-    )
+    payload_force: Signal = signal_field("N", "external force on the ROV d(t)")
     cable_load: tuple[CableLoad, ...] = Field(default=(), description="loads along the cable f(x,t), N/m")
-    vessel_motion: Signal = Field(
-        default=(), description="transverse motion of the vessel e(t)", json_schema_extra={"unit": "m"}
-    )
+    vessel_motion: Signal = signal_field("m", "transverse motion of the vessel e(t)")
     sea: SeaState | None = Field(default=None, description="waves that move the vessel besides")
     vessel_ramp: float = quantity(
         "vessel_ramp",
@@ -72,9 +68,7 @@ class Environment(Record):
         reason="the vessel's motion is faded in over it",
         fix="0 for none, else a few seconds",
     )
-    vessel_heave: Signal | None = Field(
-        default=None, description="heave of the sheave, up, faded in likewise", json_schema_extra={"unit": "m"}
-    )
+    vessel_heave: Signal | None = signal_field("m", "heave of the sheave, up, faded in likewise", None)
     water: Water | None = None
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from umbilical.scenario.base import Record, quantity
-from umbilical.scenario.signals import Signal
+from umbilical.scenario.signals import Signal, signal_field
 from umbilical.scenario.water import BodyInWater, CableInWater
 
 
@@ -55,9 +53,5 @@ class Motor(Record):
     voltage_limit: float | None = quantity(
         "voltage_limit", None, gt=0.0, reason="the drive is clipped at plus and minus it", fix="leave out for none"
     )
-    torque_disturbance: Signal = Field(
-        default=(), description="torque from outside d1(t)", json_schema_extra={"unit": "N m"}
-    )
-    voltage_disturbance: Signal = Field(
-        default=(), description="voltage beside the drive's d2(t)", json_schema_extra={"unit": "V"}
-    )
+    torque_disturbance: Signal = signal_field("N m", "torque from outside d1(t)")
+    voltage_disturbance: Signal = signal_field("V", "voltage beside the drive's d2(t)")

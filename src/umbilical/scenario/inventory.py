@@ -9,7 +9,6 @@ from pydantic.fields import FieldInfo
 
 from umbilical.scenario.base import Record
 from umbilical.scenario.fields import place_of, word
-from umbilical.scenario.scenario import Scenario
 from umbilical.scenario.text import literal
 
 _ELSEWHERE = ("schema_version", "name", "description", "assumed")
@@ -49,7 +48,7 @@ def inventory(whole: Record, assumed: Mapping[str, str]) -> list[Entry]:
     return [entry for entry in _entries(whole, "", assumed) if entry.key not in _ELSEWHERE]
 
 
-def words_at(scenario: Scenario, key: str) -> tuple[str, str]:
+def words_at(scenario: Record, key: str) -> tuple[str, str]:
     """Unit and meaning of the value at a dotted key of this scenario, kinds of tables included; empty where the
     scenario has no such place.
 
@@ -81,21 +80,13 @@ def _entries(record: Record, path: str, marks: Mapping[str, str]) -> Iterator[En
         if isinstance(value, Record):
             if value != field.get_default(call_default_factory=True) or _mark(key, marks):
                 yield from _entries(value, key + ".", marks)
-        elif _is_list_of_tables(value):
+        elif isinstance(value, tuple) and value and isinstance(value[0], Record):
             for number, item in enumerate(value, start=1):
                 yield from _entries(item, f"{key}.{number}.", marks)
         elif value not in (None, (), ""):
             unit, symbol, source = (word(field, name) for name in ("unit", "symbol", "source"))
-            text, meaning = literal(_data(value)), field.description or ""
+            text, meaning = literal(value), field.description or ""
             yield Entry(key, text, "" if unit == "1" else unit, meaning, symbol, source, _mark(key, marks))
-
-
-def _is_list_of_tables(value: Any) -> bool:
-    return isinstance(value, tuple) and bool(value) and isinstance(value[0], Record)
-
-
-def _data(value: Any) -> Any:
-    return list(value) if isinstance(value, tuple) else value
 
 
 def _mark(key: str, marks: Mapping[str, str]) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from math import log10
 from typing import Any
@@ -22,17 +22,11 @@ _WORD = re.compile(r"[^\W_]+")
 _LONG = 200
 """Characters of a text that is shown as it is."""
 _EXPECTED = {
-    "float_type": "a number",
-    "finite_number": "a finite number",
-    "int_type": "a whole number",
-    "int_from_float": "a whole number",
-    "bool_type": "true or false",
-    "string_type": "text in quotes",
-    "tuple_type": "a list in brackets",
-    "dict_type": "a table",
-    "model_type": "a table",
+    "float_type": "a number", "finite_number": "a finite number", "int_type": "a whole number",
+    "int_from_float": "a whole number", "bool_type": "true or false", "string_type": "text in quotes",
+    "tuple_type": "a list in brackets", "dict_type": "a table", "model_type": "a table",
     "model_attributes_type": "a table",
-}
+}  # fmt: skip
 
 
 def problems_of(error: ValidationError, record: type[Record]) -> list[Problem]:
@@ -42,8 +36,7 @@ def problems_of(error: ValidationError, record: type[Record]) -> list[Problem]:
         error: what validation raised.
         record: the kind of record that was validated.
     """
-    complaints = error.errors(include_url=False)
-    return [_problem(complaint, record) for complaint in complaints if not _consequence(complaint)]
+    return [_problem(found, record) for found in error.errors(include_url=False) if not _consequence(found)]
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -100,21 +93,22 @@ def _consequence(complaint: Mapping[str, Any]) -> bool:
 
 
 def _problem(complaint: Mapping[str, Any], record: type[Record]) -> Problem:
+    kind, found = complaint["type"], complaint["input"]
     place = locate(record, complaint["loc"])
-    build = _SPECIAL.get(complaint["type"], _plain)
-    return build(abridged(place.key), place.field, complaint, record)
-
-
-def _plain(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
-    expected, allowed = _EXPECTED.get(complaint["type"], ""), bounds(field)
+    key, field = abridged(place.key), place.field
+    if kind == "extra_forbidden":
+        return _unknown(key, complaint, record)
+    if kind == "missing":
+        meaning = (field.description if field else "") or "a part every scenario has"
+        fix = word(field, "fix") or f"add {key}"
+        return Problem(key, "missing", bounds(field) or "required", f"required: {meaning}", fix)
+    if kind in ("union_tag_invalid", "union_tag_not_found"):
+        return _unknown_kind(key, complaint["ctx"])
     named = f"one of {', '.join(map(str, choices(field.annotation)))}" if field and choices(field.annotation) else ""
-    bound = ", ".join(part for part in (expected, allowed, named) if part) or complaint["msg"]
+    bound = ", ".join(filter(None, (_EXPECTED.get(kind), bounds(field), named))) or complaint["msg"]
+    reason = word(field, "reason") or (field.description if field else "") or "it must be of the right kind"
     return Problem(
-        key,
-        shown(complaint["input"], field),
-        bound,
-        word(field, "reason") or (field.description if field else "") or "it must be of the right kind",
-        word(field, "fix") or f"give {bound}{_keys(locate(record, complaint['loc']).annotation)}",
+        key, shown(found, field), bound, reason, word(field, "fix") or f"give {bound}{_keys(place.annotation)}"
     )
 
 
@@ -127,36 +121,22 @@ def _keys(annotation: Any) -> str:
     return f" with {', '.join(needed or kinds[0].model_fields)}"
 
 
-def _unknown(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
+def _unknown(key: str, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
     *table, name = complaint["loc"]
     known = list(records(locate(record, table).annotation)[0].model_fields)
+    fix = f"it is {_MOVED[key]}, for the string and the rope alike" if key in _MOVED else nearest(str(name), known)
+    reason = "there is no such key here, and none is ever ignored"
+    return Problem(key, shown(complaint["input"]), f"one of {', '.join(known)}", reason, fix)
+
+
+def _unknown_kind(key: str, context: Mapping[str, Any]) -> Problem:
+    name = key + "." + context["discriminator"].strip("'")
+    if "tag" not in context:
+        return Problem(name, "missing", "required", f"it says which kind {key} is", f"add {name}")
+    found, known = str(context["tag"]), context["expected_tags"].replace("'", "").split(", ")
     return Problem(
-        key,
-        shown(complaint["input"]),
-        f"one of {', '.join(known)}",
-        "there is no such key here, and none is ever ignored",
-        f"it is {_MOVED[key]}, for the string and the rope alike" if key in _MOVED else nearest(str(name), known),
+        name, shown(found), f"one of {', '.join(known)}", "there is no such kind here", nearest(found, known)
     )
-
-
-def _missing(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
-    meaning = (field.description if field else "") or "a part every scenario has"
-    bound = bounds(field) or "required"
-    return Problem(key, "missing", bound, f"required: {meaning}", word(field, "fix") or f"add {key}")
-
-
-def _unknown_kind(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
-    context = complaint["ctx"]
-    name, known = context["discriminator"].strip("'"), context["expected_tags"].replace("'", "").split(", ")
-    found = str(context["tag"])
-    return Problem(
-        f"{key}.{name}", shown(found), f"one of {', '.join(known)}", "there is no such kind here", nearest(found, known)
-    )
-
-
-def _missing_kind(key: str, field: FieldInfo | None, complaint: Mapping[str, Any], record: type[Record]) -> Problem:
-    name = complaint["ctx"]["discriminator"].strip("'")
-    return Problem(f"{key}.{name}", "missing", "required", f"it says which kind {key} is", f"add {key}.{name}")
 
 
 _MOVED = {
@@ -173,10 +153,3 @@ _MOVED = {
     "rope.vessel_heave": "environment.vessel_heave",
 }
 """Keys that the rope once had for what the string's keys say, and which."""
-
-_SPECIAL: dict[str, Callable[[str, FieldInfo | None, Mapping[str, Any], type[Record]], Problem]] = {
-    "extra_forbidden": _unknown,
-    "missing": _missing,
-    "union_tag_invalid": _unknown_kind,
-    "union_tag_not_found": _missing_kind,
-}

@@ -2,16 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, described
-from umbilical.scenario.signals import Signal
-
-
-def _signal(meaning: str, unit: str) -> Any:
-    return Field(default=(), description=meaning, json_schema_extra={"unit": unit})
+from umbilical.scenario.signals import Signal, signal_field
 
 
 class Rope(Record):
@@ -23,7 +17,7 @@ class Rope(Record):
     elements: int = Field(
         default=10, ge=2, le=400, description="elements along the cable, four intervals of nodes each"
     )
-    vessel_across: Signal = _signal("motion of the vessel in the direction y", "m")
-    force_across: Signal = _signal("external force on the body in the direction y", "N")
-    force_up: Signal = _signal("external force on the body in the direction z", "N")
+    vessel_across: Signal = signal_field("m", "motion of the vessel in the direction y")
+    force_across: Signal = signal_field("N", "external force on the body in the direction y")
+    force_up: Signal = signal_field("N", "external force on the body in the direction z")
     thrust_directions: tuple[Number, ...] | None = Field(default=None, **described("thrust_direction"))

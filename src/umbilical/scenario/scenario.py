@@ -6,15 +6,20 @@ from collections.abc import Mapping
 from html import escape
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, WithJsonSchema, model_validator
+from pydantic import Field, ValidationError, WithJsonSchema, model_validator
 
-from umbilical.scenario.base import Record, measured, quantity
+from umbilical.errors import ScenarioError
+from umbilical.scenario.base import Record, fingerprint, measured, quantity
 from umbilical.scenario.control import Control
+from umbilical.scenario.document import freeze, override, read_document
 from umbilical.scenario.environment import Environment, InitialShape, Straight
 from umbilical.scenario.faults import Fault
 from umbilical.scenario.hardware import Cable, Motor, Payload
+from umbilical.scenario.inventory import inventory
+from umbilical.scenario.problems import problems_of
 from umbilical.scenario.rope import Rope
 from umbilical.scenario.sensors import Sensors
+from umbilical.scenario.text import to_toml
 from umbilical.scenario.winch import Winch
 
 ELEMENTS = 64
@@ -105,26 +110,18 @@ class Scenario(Record):
     @property
     def hash(self) -> str:
         """SHA-256 of the canonical text, as hexadecimal digits: equal exactly when scenarios are."""
-        from umbilical.scenario.document import scenario_hash
-
-        return scenario_hash(self)
+        return fingerprint(self.to_dict())
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data (tables, lists, numbers, texts), defaults included."""
-        from umbilical.scenario.document import to_dict
-
-        return to_dict(self)
+        return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
         """Complete TOML text; every key with its unit, its meaning and whether it is assumed."""
-        from umbilical.scenario.text import to_toml
-
         return to_toml(self)
 
     def _repr_html_(self) -> str:
         """Every value with its unit and meaning, as a table for notebooks."""
-        from umbilical.scenario.inventory import inventory
-
         cells = ((e.key, e.value[:60], e.unit, e.meaning) for e in inventory(self, self.assumed))
         rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
         head = f"<summary><b>{escape(self.name)}</b>: {escape(self.description)}</summary>"
@@ -139,6 +136,34 @@ class Scenario(Record):
         Raises:
             ScenarioError: with every problem of the fields.
         """
-        from umbilical.scenario.document import override, validate
-
         return validate(override(self.to_dict(), overrides, self.name), self.name)
+
+
+def parse_document(text: str, origin: str = "scenario") -> Scenario:
+    """Scenario of a complete TOML text, one without ``extends``.
+
+    Args:
+        text: TOML.
+        origin: what to call the text in errors, e.g. a file name.
+
+    Raises:
+        FileError: the text is not TOML; the message names line and column.
+        ScenarioError: it is, but not of a scenario; every problem is listed.
+
+    >>> from umbilical.library import load
+    >>> parse_document(load("paper").to_toml()) == load("paper")
+    True
+    """
+    return validate(read_document(text, origin), origin)
+
+
+def validate(data: Mapping[str, Any], origin: str = "scenario") -> Scenario:
+    """Scenario of plain data; fields are checked one by one, not yet against each other.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    try:
+        return Scenario.model_validate(freeze(data))
+    except ValidationError as error:
+        raise ScenarioError(problems_of(error, Scenario), origin) from error

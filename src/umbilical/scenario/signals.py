@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -83,3 +83,8 @@ class Waves(Record):
 Term = Annotated[Constant | Sine | Bell | Step | Pulse | Table | Waves, Field(discriminator="kind")]
 Signal = tuple[Term, ...]
 """A sum of terms; empty means zero."""
+
+
+def signal_field(unit: str, meaning: str, default: Any = ()) -> Any:
+    """A field of a signal: unit and meaning of its values; left out, there is none."""
+    return Field(default, description=meaning, json_schema_extra={"unit": unit})

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from umbilical.scenario.base import Number, Record, quantity
-from umbilical.scenario.signals import Signal
+from umbilical.scenario.signals import Signal, signal_field
 
 _DRAGS = {"ge": 0.0, "reason": "drag brakes", "fix": "0 for none"}
 _MOVES_ALONG = {"ge": 0.0, "le": 1e9, "reason": "water moves along", "fix": "0 for none"}
@@ -50,9 +50,7 @@ class Current(Record):
     speeds_across: tuple[Number, ...] | None = Field(
         default=None, max_length=100, description="speed across the plane at each depth, m/s; only the rope feels it"
     )
-    variation: Signal = Field(
-        default=(), description="what is added to 1 as the factor of all speeds", json_schema_extra={"unit": "1"}
-    )
+    variation: Signal = signal_field("1", "what is added to 1 as the factor of all speeds")
 
 
 class Water(Record):

@@ -6,8 +6,7 @@ from math import ceil, pi, sqrt
 from typing import Any
 
 from umbilical.errors import Problem, ScenarioError
-from umbilical.scenario.document import validate
-from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.scenario import Scenario, validate
 from umbilical.screening.operate import steepest_height
 from umbilical.screening.operation import Operation
 

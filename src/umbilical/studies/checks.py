@@ -11,9 +11,10 @@ from typing import Any
 from umbilical.errors import Problem, ScenarioError
 from umbilical.library import admit
 from umbilical.quantities import METRICS
-from umbilical.scenario.document import look_up, validate
+from umbilical.scenario.document import look_up
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.problems import nearest
+from umbilical.scenario.scenario import validate
 from umbilical.studies.designs import design_size
 from umbilical.studies.distributions import GridPoints, LogUniform, Uniform, count, draw_value, is_number
 from umbilical.studies.members import arm_data, given_by, needed_of_a_fault, variables

@@ -14,8 +14,8 @@ from umbilical.control.contract import Controller
 from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario import Scenario
-from umbilical.scenario.document import validate
 from umbilical.scenario.problems import nearest
+from umbilical.scenario.scenario import validate
 from umbilical.studies.members import arm_data
 from umbilical.studies.study import Arm, Study
 

@@ -10,7 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.scenario import Scenario
-from umbilical.scenario.document import look_up, override, validate
+from umbilical.scenario.document import look_up, override
+from umbilical.scenario.scenario import validate
 from umbilical.studies.designs import child_seed, design_size, points
 from umbilical.studies.distributions import Choice, Distribution, Drawn, count, draw_value
 from umbilical.studies.study import Campaign, Factor, Study

@@ -17,8 +17,9 @@ from umbilical.analysis.paired import quantile
 from umbilical.errors import FileError, Problem, ScenarioError, expect
 from umbilical.library import admit, load, preset_names
 from umbilical.result import ResultFaces
-from umbilical.scenario.document import extend, look_up, override, validate
+from umbilical.scenario.document import extend, look_up, override
 from umbilical.scenario.problems import nearest
+from umbilical.scenario.scenario import validate
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import Engine, default_jobs

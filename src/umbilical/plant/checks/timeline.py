@@ -12,7 +12,7 @@ from umbilical.plant.exogenous import variation_of
 from umbilical.relations.instants import apart, is_multiple, nearest_count, slack
 from umbilical.scenario import Scenario
 from umbilical.scenario.control import Control
-from umbilical.scenario.document import look_up, to_dict
+from umbilical.scenario.document import look_up
 from umbilical.scenario.environment import Environment, InitialShape, TableProfile, TableShape
 from umbilical.scenario.faults import Fault
 from umbilical.scenario.findings import Finding, Notice, amount
@@ -143,7 +143,7 @@ def jumps_after_the_end(
 
 def marks(scenario: Scenario) -> Iterator[Finding]:
     """Every mark *assumed* names a value of the scenario."""
-    data = to_dict(scenario)
+    data = scenario.to_dict()
     for key in scenario.assumed:
         try:
             look_up(data, key)
