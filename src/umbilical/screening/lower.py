@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
-from umbilical.result import ResultFaces
+from umbilical.screening.labels import ScreeningResult
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import respond, unknown_parts
+from umbilical.screening.response import respond
 from umbilical.sea.spectrum import Spectrum
 
 BAND = (0.8, 1.25)
@@ -23,7 +23,7 @@ BAND = (0.8, 1.25)
 
 
 @dataclass(frozen=True)
-class Lowering(ResultFaces):
+class Lowering(ScreeningResult):
     """Risk over the winch speed.
 
     Attributes:
@@ -36,6 +36,8 @@ class Lowering(ResultFaces):
         spectrum: the sea.
         heading: rad.
     """
+
+    drawn_by: ClassVar[str] = "plot_lowering"
 
     operation: Operation
     depth: np.ndarray
@@ -80,35 +82,16 @@ class Lowering(ResultFaces):
             f"{np.ptp(self.depth) / speed / 60.0:.3g} min; {where}"
         )
 
-    def notices(self) -> tuple[str, ...]:
-        """What the risk does not know."""
-        return tuple(unknown_parts(self.operation))
-
     def to_dict(self) -> dict[str, Any]:
         """As plain data."""
-        return {
-            "operation": self.operation.name,
-            "operation_hash": self.operation.hash,
-            "headline": self.summary(),
-            "significant_height": self.spectrum.significant_height,
-            "peak_period": self.spectrum.peak_period,
-            "heading": self.heading,
-            "depth": self.depth.tolist(),
-            "speed": self.speed.tolist(),
-            "risk": self.risk.tolist(),
-            "best_speed": float(self.speed[self.best]),
-            "waiting_depth": self.waiting_depth,
-            "axial_period": self.axial_period.tolist(),
-            "mean_tension": self.mean_tension.tolist(),
-            "notices": self.notices(),
-            "assumed": self.operation.assumed,
-        }
-
-    def plot(self) -> Any:
-        """Draw the risk over speed, and where it arises."""
-        from umbilical import plot_lowering
-
-        return plot_lowering(self)
+        return self.plain(
+            "depth speed risk axial_period mean_tension",
+            significant_height=self.spectrum.significant_height,
+            peak_period=self.spectrum.peak_period,
+            heading=self.heading,
+            best_speed=float(self.speed[self.best]),
+            waiting_depth=self.waiting_depth,
+        )
 
 
 def lower(

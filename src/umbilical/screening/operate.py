@@ -9,25 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from umbilical.relations.axial import Bar, HeaveTransfer, axial_period, heave_transfer
 from umbilical.relations.tension import hanging_of, net_gravity, tension
-from umbilical.result import ResultFaces
 from umbilical.screening.criteria import USUAL, Criterion, read_criteria
+from umbilical.screening.labels import ScreeningResult, labelled
 from umbilical.screening.load import bar_of
 from umbilical.screening.operation import Operation
-from umbilical.screening.response import (
-    FREQUENCIES,
-    Spread,
-    check_vessel,
-    largest_rms,
-    sheave_energy,
-    spread,
-    unknown_parts,
-)
+from umbilical.screening.response import FREQUENCIES, Spread, check_vessel, largest_rms, sheave_energy, spread
 from umbilical.sea.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -47,7 +39,7 @@ _PLACES = np.array([1.0, 0.75, 0.5, 0.25, 0.0])
 
 
 @dataclass(frozen=True)
-class Operability(ResultFaces):
+class Operability(ScreeningResult):
     """Limits over depth, period and heading.
 
     Attributes:
@@ -60,6 +52,8 @@ class Operability(ResultFaces):
         undamped: where the limit hangs on a damping of the cable itself that the operation leaves at 0: a loss factor
             of :data:`TYPICAL_LOSS` moves it by more than :data:`MOVED`; shape (depth, period, heading).
     """
+
+    drawn_by: ClassVar[str] = "plot_operability"
 
     operation: Operation
     criteria: tuple[Criterion, ...]
@@ -92,75 +86,58 @@ class Operability(ResultFaces):
 
     def summary(self) -> str:
         """The lowest limit and where it is, in one line."""
-        d, p, h = self.worst
-        which = self.criteria[int(np.argmin(self.limits[:, d, p, h]))]
-        if self.limit[d, p, h] >= steepest_height(self.period)[p]:
+        (d, p, h), height = self.worst, self.limit.min()
+        if height >= steepest_height(self.period)[p]:
             return f"{self.operation.name}: no limit below the steepest seas"
         return (
-            f"{self.operation.name}: Hs up to {self.limit[d, p, h]:.3g} m; lowest at {self.depth[d]:.4g} m, "
-            f"Tp {self.period[p]:.3g} s, heading {np.degrees(self.heading[h]):.0f} deg ({which})"
+            f"{self.operation.name}: Hs up to {height:.3g} m; lowest at {self.depth[d]:.4g} m, "
+            f"Tp {self.period[p]:.3g} s, heading {np.degrees(self.heading[h]):.0f} deg "
+            f"({self.criteria[int(np.argmin(self.limits[:, d, p, h]))]})"
         )
 
     def notices(self) -> tuple[str, ...]:
         """What the limits do not know."""
-        said = unknown_parts(self.operation)
+        said = super().notices()
         if count := int(self.undamped.sum()):
-            said.append(
+            said += (
                 f"{count} of {self.undamped.size} limits hang on the cable's own damping, which is 0 here: a loss "
-                f"factor of {TYPICAL_LOSS:g} moves them by more than {MOVED:.0%} (cable.loss_factor)"
+                f"factor of {TYPICAL_LOSS:g} moves them by more than {MOVED:.0%} (cable.loss_factor)",
             )
-        return tuple(said)
+        return said
 
     def to_dataset(self) -> xarray.Dataset:
         """As labelled arrays with units."""
         import xarray
 
-        dims = ("depth", "period", "heading")
-        words = {
-            "limit": ("m", "largest significant wave height that keeps all criteria"),
-            "limit_by_criterion": ("m", "largest significant wave height that keeps the criterion"),
-            "axial_period": ("s", "longest axial period T1"),
-            "undamped": ("1", "the limit hangs on a damping of the cable that is 0 here"),
-            "depth": ("m", "cable paid out"),
-            "period": ("s", "peak period Tp"),
-            "heading": ("rad", "direction the waves go to, 0 following"),
-        }
-        says = {name: {"units": unit, "long_name": meaning} for name, (unit, meaning) in words.items()}
-        data = {
-            "limit": (dims, self.limit, says["limit"]),
-            "limit_by_criterion": (("criterion", *dims), self.limits, says["limit_by_criterion"]),
-            "axial_period": ("depth", self.axial_period, says["axial_period"]),
-            "undamped": (dims, self.undamped.astype("i1"), says["undamped"]),
-        }
-        axes = {name: (name, getattr(self, name), says[name]) for name in dims}
-        axes["criterion"] = ("criterion", [str(criterion) for criterion in self.criteria], {})
-        return xarray.Dataset(data, axes, {"operation": self.operation.name, "operation_hash": self.operation.hash})
+        dims, most = ("depth", "period", "heading"), "largest significant wave height that keeps"
+        rows = (
+            ("limit", dims, self.limit, "m", f"{most} all criteria"),
+            ("limit_by_criterion", ("criterion", *dims), self.limits, "m", f"{most} the criterion"),
+            ("axial_period", "depth", self.axial_period, "s", "longest axial period T1"),
+            (
+                "undamped",
+                dims,
+                self.undamped.astype("i1"),
+                "1",
+                "the limit hangs on a damping of the cable that is 0 here",
+            ),
+            ("depth", "depth", self.depth, "m", "cable paid out"),
+            ("period", "period", self.period, "s", "peak period Tp"),
+            ("heading", "heading", self.heading, "rad", "direction the waves go to, 0 following"),
+        )
+        axes = {"criterion": [str(criterion) for criterion in self.criteria]}
+        about = {"operation": self.operation.name, "operation_hash": self.operation.hash}
+        return xarray.Dataset(labelled(rows), axes, about)
 
     def to_dict(self) -> dict[str, Any]:
         """As plain data."""
-        d, p, h = self.worst
-        return {
-            "operation": self.operation.name,
-            "operation_hash": self.operation.hash,
-            "headline": self.summary(),
-            "criteria": [str(criterion) for criterion in self.criteria],
-            "depth": self.depth.tolist(),
-            "period": self.period.tolist(),
-            "heading": self.heading.tolist(),
-            "limit": self.limit.tolist(),
-            "lowest": {"height": float(self.limit[d, p, h]), "depth": float(self.depth[d]),
-                       "period": float(self.period[p]), "heading": float(self.heading[h])},
-            "axial_period": self.axial_period.tolist(),
-            "undamped": self.undamped.tolist(),
-            "notices": self.notices(),
-            "assumed": self.operation.assumed,
-        }  # fmt: skip
-
-    def plot(self, **options: Any) -> Any:
-        """Draw a map of the limits; options as for ``umbilical.plot_operability``."""
-        from umbilical import plot_operability
-
-        return plot_operability(self, **options)
+        place = dict(zip(("depth", "period", "heading"), self.worst, strict=True))
+        at = {axis: float(getattr(self, axis)[number]) for axis, number in place.items()}
+        return self.plain(
+            "depth period heading limit axial_period undamped",
+            criteria=[str(criterion) for criterion in self.criteria],
+            lowest={"height": float(self.limit[self.worst]), **at},
+        )
 
 
 def operate(
@@ -192,15 +169,15 @@ def operate(
     depth, period, heading = (np.asarray(axis, dtype=float) for axis in (depth, period, heading))
     criteria = read_criteria(criteria)
     seas = _unit_seas(operation, period, heading)
-    found, damped = [], []
-    for number, length in enumerate(depth.tolist()):
-        found.append(_limits_at(operation, criteria, bar_of(operation, length), seas))
-        damped.append(_limits_at(operation, criteria, _with_typical_loss(bar_of(operation, length)), seas))
-        progress((number + 1) / depth.size)
+    bars, found, damped = [bar_of(operation, length) for length in depth.tolist()], [], []
+    for number, bar in enumerate(bars, start=1):
+        found.append(_limits_at(operation, criteria, bar, seas))
+        damped.append(_limits_at(operation, criteria, _with_typical_loss(bar), seas))
+        progress(number / depth.size)
     shape = (len(criteria), depth.size, period.size, heading.size)
     steepest = steepest_height(period)[None, None, :, None]
     limits, held = (np.minimum(np.stack(part, axis=1).reshape(shape), steepest) for part in (found, damped))
-    axial = np.array([axial_period(bar_of(operation, length)) for length in depth.tolist()])
+    axial = np.array([axial_period(bar) for bar in bars])
     undamped = abs(held.min(axis=0) - limits.min(axis=0)) > MOVED * limits.min(axis=0)
     return Operability(operation, criteria, depth, period, heading, limits, axial, undamped)
 
@@ -257,16 +234,13 @@ def _processes(
 
 def _crossing(height: np.ndarray, allowed: np.ndarray) -> np.ndarray:
     """First height, along the damping, at which the sea is as high as allowed; shape (dampings, seas) to (seas,)."""
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         gap = np.log(height) - np.log(allowed)
-    above = gap >= 0.0
-    first = np.argmax(above, axis=0)
-    seas = np.arange(height.shape[1])
-    before = np.maximum(first - 1, 0)
-    low, high = gap[before, seas], gap[first, seas]
-    with np.errstate(invalid="ignore", divide="ignore"):
-        share = np.where(first > 0, -low / (high - low), 1.0)
-        share = np.where(np.isfinite(share), share, 1.0)
+        above, seas = gap >= 0.0, np.arange(height.shape[1])
+        first = np.argmax(above, axis=0)
+        before = np.maximum(first - 1, 0)
+        share = -gap[before, seas] / (gap[first, seas] - gap[before, seas])
+        share = np.where((first > 0) & np.isfinite(share), share, 1.0)
         crossed = np.exp((1.0 - share) * np.log(height[before, seas]) + share * np.log(height[first, seas]))
     crossed = np.where(allowed[first, seas] <= 0.0, 0.0, crossed)
     return np.where(above.any(axis=0), crossed, height[-1])

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from umbilical.result import ResultFaces
 from umbilical.screening.criteria import Criterion
+from umbilical.screening.labels import labelled
 from umbilical.screening.operate import Operability, operate
 from umbilical.screening.operation import Operation
 from umbilical.screening.seas import Seas
@@ -32,6 +33,8 @@ class Weather(ResultFaces):
         limit: Hs that is workable at each sea's period, at all depths and headings, m, shape (seas,).
         needed: how long the operation takes, s.
     """
+
+    drawn_by: ClassVar[str] = "plot_weather"
 
     found: Operability
     seas: Seas
@@ -113,25 +116,16 @@ class Weather(ResultFaces):
 
     def to_dataset(self) -> xarray.Dataset:
         """Limits and seas as labelled arrays with units."""
-        data = self.found.to_dataset()
-        words = {
-            "sea_height": ("m", "significant wave height", self.seas.height),
-            "sea_period": ("s", "peak period Tp", self.seas.period),
-            "sea_weight": ("1", "share of the sea states", self.seas.weight),
-            "sea_limit": ("m", "workable significant wave height at this period", self.limit),
-            "sea_workable": ("1", "whether the sea is workable", self.workable.astype("i1")),
-        }
-        for name, (unit, meaning, values) in words.items():
-            data[name] = ("sea", values, {"units": unit, "long_name": meaning})
+        rows = [
+            ("sea_height", "sea", self.seas.height, "m", "significant wave height"),
+            ("sea_period", "sea", self.seas.period, "s", "peak period Tp"),
+            ("sea_weight", "sea", self.seas.weight, "1", "share of the sea states"),
+            ("sea_limit", "sea", self.limit, "m", "workable significant wave height at this period"),
+            ("sea_workable", "sea", self.workable.astype("i1"), "1", "whether the sea is workable"),
+        ]
         if self.seas.time is not None:
-            data["sea_time"] = ("sea", self.seas.time, {"units": "s", "long_name": "time from the first sea"})
-        return data
-
-    def plot(self) -> Any:
-        """Draw the seas and the limit over the period."""
-        from umbilical import plot_weather
-
-        return plot_weather(self)
+            rows.append(("sea_time", "sea", self.seas.time, "s", "time from the first sea"))
+        return self.found.to_dataset().assign(labelled(rows))
 
 
 def weather(
