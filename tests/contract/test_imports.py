@@ -18,8 +18,6 @@ LATER = {
     "faces.certificate": {"certificate"},
     "faces.study": {"studies.members", "studies.sensitivity"},
     "faces.tuning": {"studies.tune"},
-    "library.checks": {"plant.checks.rope"},
-    "library.load": {"stored_runs"},
     "plant.checks.steps": {"plant.rope.assemble"},
     "plots.figure": {"plant.exogenous"},
     "plots.study": {"studies.sensitivity"},

@@ -12,7 +12,19 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, stretch, timeline, water, weights
+from umbilical.plant.checks import (
+    equipment,
+    motion,
+    rope,
+    seas,
+    sizes,
+    statics,
+    steps,
+    stretch,
+    timeline,
+    water,
+    weights,
+)
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -98,7 +110,5 @@ OF_THE_STRING = (
 def checks_for(model: str) -> tuple[Check, ...]:
     """The checks of a scenario with this model of the cable."""
     if model == "rope":
-        from umbilical.plant.checks import rope  # with all its kernels, which a string needs none of
-
         return (*(check for check in CHECKS if check not in OF_THE_STRING), *rope.CHECKS)
     return CHECKS

@@ -15,6 +15,7 @@ from umbilical.scenario import Scenario
 from umbilical.scenario.document import read_document, try_override
 from umbilical.scenario.presets import Presets
 from umbilical.scenario.problems import nearest
+from umbilical.stored_runs import scenario_text
 
 PRESETS = Presets("umbilical.scenario", "preset")
 
@@ -77,8 +78,6 @@ def _text(source: str) -> str:
         return preset_text(source)
     path = Path(source)
     if path.suffix == ".nc":
-        from umbilical.stored_runs import scenario_text  # brings xarray along
-
         return scenario_text(path)
     return _file_text(path)
 
