@@ -22,7 +22,6 @@ LATER = {
     "plots.figure": {"plant.exogenous"},
     "plots.study": {"studies.sensitivity"},
     "run": {"umbilical"},
-    "studies.cluster": {"umbilical"},
     "studies.constraints": {"certificate.certify", "stability.judgement"},
     "studies.load": {"studies.results"},
     "studies.results": {"studies.load"},

@@ -102,7 +102,7 @@ WRONG = {
 
 @pytest.mark.parametrize("path", WRONG)
 def test_what_makes_no_controller_is_refused_before_the_first_member(path, monkeypatch):
-    monkeypatch.setattr("umbilical.studies.engines.run_member", lambda *_: pytest.fail("it ran"))
+    monkeypatch.setattr("umbilical.studies.sweep.run_member", lambda *_: pytest.fail("it ran"))
     with pytest.raises(ScenarioError, match=WRONG[path]) as caught:
         sweep(study_of(path), engine=engines.threads(1), trust=True)
     assert [problem.key for problem in caught.value.problems] == ["arms.1.controller"]

@@ -56,7 +56,7 @@ def test_a_journal_gives_back_the_very_numbers(tmp_path):
 
 def test_a_finished_study_is_not_run_again(whole, monkeypatch):
     before = (whole / "study.nc").read_bytes()
-    monkeypatch.setattr("umbilical.studies.engines.run_member", lambda *_: pytest.fail("it ran"))
+    monkeypatch.setattr("umbilical.studies.sweep.run_member", lambda *_: pytest.fail("it ran"))
     sweep(small_study(), whole, resume=True)
     assert (whole / "study.nc").read_bytes() == before
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 import pytest
@@ -17,7 +19,7 @@ from umbilical.errors import FileError, OutputError
 from umbilical.formats import to_netcdf
 from umbilical.stored_runs import open_run
 from umbilical.studies import engines, rows
-from umbilical.studies.cluster import connect, dask, on_client
+from umbilical.studies.cluster import connect, dask
 from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 from umbilical.studies.results import assemble_study, open_study
@@ -27,10 +29,11 @@ from umbilical.studies.sweep import disk_needed, sweep, worst
 
 TARGETS = ("thrust", "voltage")
 ENGINES = {
-    "two threads": engines.threads(2),
-    "many threads": engines.threads(7),
-    "processes": engines.processes(2),
-    "dask": dask("local", 3),
+    "two threads": lambda: engines.threads(2),
+    "many threads": lambda: engines.threads(7),
+    "processes": lambda: engines.processes(2),
+    "dask": lambda: dask("local", 3),
+    "an executor of Python's own": lambda: ThreadPoolExecutor(2),
 }
 
 
@@ -46,7 +49,8 @@ def reference(study):
 
 @pytest.mark.parametrize("name", ENGINES)
 def test_the_result_does_not_depend_on_who_works(study, reference, name):
-    assert to_netcdf(sweep(study, engine=ENGINES[name]).data) == reference
+    with ENGINES[name]() as engine:
+        assert to_netcdf(sweep(study, engine=engine).data) == reference
 
 
 def test_nor_on_the_order(study, reference):
@@ -76,16 +80,18 @@ def test_a_killed_dask_worker_costs_nothing(reference):
 
         killer = threading.Thread(target=kill)
         killer.start()
-        found = list(on_client(client, draws, (draws.member(n) for n in range(1, len(draws) + 1))))
+        members = (draws.member(n) for n in range(1, len(draws) + 1))
+        pool = engines.Pool(3, lambda: client.get_executor(pure=False, retries=10))
+        found = list(engines.in_any_order(pool, partial(rows.run_member, draws), members))
         killer.join()
     assert killed
     assert sorted(row.number for row in found) == list(range(1, 25))
     assert to_netcdf(assemble_study(slow, found).data) == expected
 
 
-def test_no_scheduler_is_said_plainly(study):
+def test_no_scheduler_is_said_plainly():
     with pytest.raises(FileError, match="there is no Dask scheduler"):
-        sweep(study, engine=dask("not-an-address", 1))
+        dask("not-an-address", 1).__enter__()
 
 
 def test_a_member_alone_is_its_row(study, reference):
@@ -204,14 +210,16 @@ def test_the_worst_are_kept_of_those_that_have_a_run(tmp_path, monkeypatch):
 
 
 def test_the_worst_are_run_by_the_engine_that_was_chosen_after_the_result_is_stored(tmp_path):
-    asked = []
+    asked = {}
 
-    def engine(draws, members):
-        asked.append((draws.study.trajectories.keep, len(draws.study.arms), (tmp_path / "out" / "study.nc").exists()))
-        return engines.threads(1)(draws, members)
+    class Asked(ThreadPoolExecutor):
+        def submit(self, function, member):
+            study = function.args[0].study
+            asked[study.trajectories.keep, len(study.arms), (tmp_path / "out" / "study.nc").exists()] = True
+            return super().submit(function, member)
 
-    sweep(small_study(trajectories={"keep": "worst", "count": 2}), tmp_path / "out", engine=engine)
-    assert asked == [("worst", 2, False), ("all", 1, True), ("all", 1, True)]
+    sweep(small_study(trajectories={"keep": "worst", "count": 2}), tmp_path / "out", engine=Asked(1))
+    assert list(asked) == [("worst", 2, False), ("all", 1, True)]
 
 
 @pytest.mark.parametrize("keep", ["none", "worst"])

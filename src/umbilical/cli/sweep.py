@@ -13,7 +13,9 @@ from umbilical.cli.output import print_result, report
 from umbilical.errors import FileError
 
 if TYPE_CHECKING:
-    from umbilical.studies.engines import Engine
+    from concurrent.futures import Executor
+    from contextlib import AbstractContextManager
+
     from umbilical.studies.study import Study
 
 
@@ -48,13 +50,14 @@ def sweep(
     from umbilical.faces.study import text as study_text
     from umbilical.studies.sweep import sweep as run
 
+    if dask and processes:
+        raise BadParameter("--processes and --dask say two different things", param_hint="--dask")
     chosen = load_changed_study(study, changes or [])
     refuse_code_of_results(study, chosen)
     folder = out or Path(chosen.name)
-    engine = _engine(chosen, jobs, processes, dask)
     announce_compilation(chosen.scenario)
     try:
-        with bar(f"running {chosen.name}") as advance:
+        with _engine(chosen, jobs, processes, dask) as engine, bar(f"running {chosen.name}") as advance:
             found = run(
                 chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, report=report
             )
@@ -97,18 +100,15 @@ def load_changed_study(source: str, changes: list[str]) -> Study:
     return load_study(source, dict(assignment(text) for text in changes))
 
 
-def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -> Engine:
+def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -> AbstractContextManager[Executor]:
     from umbilical.studies import engines
-    from umbilical.studies.sweep import default_engine
+    from umbilical.studies.sweep import open_engine
 
-    count = jobs or engines.default_jobs()
-    if dask and processes:
-        raise BadParameter("--processes and --dask say two different things", param_hint="--dask")
     if dask:
         from umbilical.studies.cluster import dask as cluster
 
-        return cluster(dask, count)
-    return engines.processes(count) if processes else default_engine(study, count)
+        return cluster(dask, jobs or engines.default_jobs())
+    return engines.processes(jobs or engines.default_jobs()) if processes else open_engine(study, jobs)
 
 
 def member(

@@ -42,18 +42,16 @@ def tune(
     Where no gains keep every condition, the exit code is 7.
     """
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.studies.engines import default_jobs
-    from umbilical.studies.sweep import default_engine
+    from umbilical.studies.sweep import open_engine
     from umbilical.studies.tune import tune as search
 
     chosen = load_changed_study(study, changes or [])
     refuse_code_of_results(study, chosen)
     check_target(picture, PICTURES, force=force or resume)
     folder = out or Path(f"{chosen.name}-tuned")
-    engine = default_engine(chosen, jobs or default_jobs())
     announce_compilation()
     try:
-        with bar(f"tuning {chosen.name}") as advance:
+        with open_engine(chosen, jobs) as engine, bar(f"tuning {chosen.name}") as advance:
             found = search(
                 chosen,
                 folder,

@@ -8,7 +8,9 @@ passed with the accepted probability within the accepted time, is 1 at a limit t
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -79,7 +81,7 @@ class Confirmation:
 
 def confirm(
     scenario: Scenario, criteria: Sequence[Criterion], height: float, *, settled: float, seeds: int = 10,
-    workers: int | None = None, progress: Callable[[float], None] | None = None,
+    workers: Executor | int | None = None, progress: Callable[[float], None] | None = None,
 ) -> Confirmation:  # fmt: skip
     """Run seeds of a sea, and hold what they reach against what is allowed.
 
@@ -89,7 +91,7 @@ def confirm(
         height: Hs of the sea, m.
         settled: s from which on the run counts.
         seeds: how many, from 1 on; their numbers are 0, 1, ...
-        workers: threads; results do not depend on them. All cores by default.
+        workers: threads, or an executor; results do not depend on them. All cores by default.
         progress: called with the share that is done.
 
     Raises:
@@ -97,7 +99,7 @@ def confirm(
     """
     chosen = np.arange(seeds)
     changed = [scenario.replace({"environment.sea.seed": seed}) for seed in chosen.tolist()]
-    found = in_order(lambda each: _look(each, criteria, settled), changed, progress, workers)
+    found = in_order(partial(_look, criteria=tuple(criteria), settled=settled), changed, progress, workers)
     completed = np.array([shares is not None for shares, _ in found])
     good = [(shares, passed) for shares, passed in found if shares is not None]
     if not good:

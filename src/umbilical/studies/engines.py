@@ -1,29 +1,51 @@
-"""Who does the work: threads, processes or a Dask cluster, behind one contract.
-
-An engine takes the draws and the members to run, and yields their rows in any order. What is in a row does not depend
-on who made it. Never more than a few members are under way, so memory does not grow with their number.
+"""Who does the work: any executor of :mod:`concurrent.futures`; threads and processes of this machine here, a Dask
+cluster in ``cluster.py``. What comes back does not depend on who made it, and never more than a few calls are under
+way, so memory does not grow with their number.
 """
 
 from __future__ import annotations
 
 import os
-import pickle
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from functools import lru_cache
+from contextlib import AbstractContextManager, nullcontext
+from functools import partial
 from itertools import chain, islice
-from typing import TypeVar
+from multiprocessing import get_context, parent_process
+from threading import Thread
+from typing import Any, TypeVar
 
 from umbilical.errors import ControllerError
-from umbilical.studies.members import Draws, Member
-from umbilical.studies.rows import Row, run_member
 
-Engine = Callable[[Draws, Iterable[Member]], Iterator[Row]]
 Work = TypeVar("Work")
 Done = TypeVar("Done")
 _LIVES = 5
-"""Times a pool of processes is started anew after one of them was killed."""
+"""Times a call is made whose process is killed."""
+
+
+class Pool(Executor):
+    """An executor that says how many calls it makes at once, and begins anew when one of its processes was killed.
+
+    Attributes:
+        jobs: calls at once.
+    """
+
+    def __init__(self, jobs: int, begin: Callable[[], Executor]) -> None:
+        self.jobs = jobs
+        self._begin, self._pool = begin, begin()
+
+    def submit(self, fn: Callable[..., Done], /, *args: Any, **kwargs: Any) -> Future[Done]:
+        """Call a function some time, with these arguments."""
+        try:
+            return self._pool.submit(fn, *args, **kwargs)
+        except BrokenProcessPool:
+            self._pool = self._begin()
+            return self._pool.submit(fn, *args, **kwargs)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Take no more calls."""
+        self._pool.shutdown(wait, **({"cancel_futures": True} if cancel_futures else {}))  # Dask knows no such word
 
 
 def default_jobs() -> int:
@@ -31,63 +53,51 @@ def default_jobs() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def threads(jobs: int) -> Engine:
+def threads(jobs: int) -> Pool:
     """Threads of this process: the compiled loop runs without the GIL, and nothing is copied."""
-
-    def run(draws: Draws, members: Iterable[Member]) -> Iterator[Row]:
-        with ThreadPoolExecutor(jobs) as pool:
-            yield from in_pool(pool, lambda member: run_member(draws, member), members, 2 * jobs)
-
-    return run
+    return Pool(jobs, lambda: ThreadPoolExecutor(jobs))
 
 
-def processes(jobs: int) -> Engine:
-    """Processes of this machine: for controllers in Python, which hold the GIL. A killed one is replaced."""
+def processes(jobs: int) -> Pool:
+    """Processes of this machine: for controllers in Python, which hold the GIL. A killed one is replaced.
 
-    def run(draws: Draws, members: Iterable[Member]) -> Iterator[Row]:
-        packed, coming, begun = pickle.dumps(draws.study), iter(members), dict[int, Member]()
-        for life in range(_LIVES):
-            try:
-                for row in _one_pool(jobs, packed, _noted(chain(list(begun.values()), coming), begun)):
-                    del begun[row.number]
-                    yield row
-                return
-            except BrokenProcessPool as error:
-                if life + 1 == _LIVES:
-                    raise ControllerError(f"worker processes died {_LIVES} times; is there memory for them?") from error
-
-    return run
+    They are fresh (a fork would inherit our threads' locks), and end when this one does.
+    """
+    anew = partial(ProcessPoolExecutor, jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
+    return Pool(jobs, anew)
 
 
-def _noted(members: Iterable[Member], begun: dict[int, Member]) -> Iterator[Member]:
-    """The members one by one, each noted when it is taken."""
-    for member in members:
-        begun[member.number] = member
-        yield member
+def opened(workers: Executor | int | None) -> AbstractContextManager[Executor]:
+    """An executor that is given stays open; threads, as many as are asked for or as there are cores, are closed."""
+    return nullcontext(workers) if isinstance(workers, Executor) else threads(workers or default_jobs())
 
 
-def _one_pool(jobs: int, packed: bytes, members: Iterable[Member]) -> Iterator[Row]:
-    with worker_processes(jobs) as pool:
-        yield from in_pool(pool, _Packed(packed), members, 2 * jobs)
+def in_any_order(pool: Executor, function: Callable[[Work], Done], items: Iterable[Work]) -> Generator[Done]:
+    """Results of a function in any order, with at most two calls for each worker under way.
 
+    What a killed process had is called again.
 
-def worker_processes(jobs: int) -> ProcessPoolExecutor:
-    """Fresh processes (a fork would inherit our threads' locks), which end when this one does."""
-    from multiprocessing import get_context
-
-    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"), initializer=_end_with_the_parent)
-
-
-def in_pool(pool: Executor, function: Callable[[Work], Done], items: Iterable[Work], window: int) -> Iterator[Done]:
-    """Results of a function in any order, with at most ``window`` calls under way."""
-    waiting = iter(items)
-    running: set[Future[Done]] = {pool.submit(function, item) for item in islice(waiting, window)}
+    Raises:
+        ControllerError: the process of one call was killed :data:`_LIVES` times.
+    """
+    window, waiting = 2 * getattr(pool, "jobs", default_jobs()), ((item, 1) for item in items)
+    running: dict[Future[Done], tuple[Work, int]] = {}
     try:
-        while running:
-            done, running = wait(running, return_when=FIRST_COMPLETED)
-            running |= {pool.submit(function, item) for item in islice(waiting, len(done))}
-            for future in done:
-                yield future.result()
+        while True:
+            for call in islice(waiting, window - len(running)):
+                running[pool.submit(function, call[0])] = call
+            if not running:
+                return
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                item, life = running.pop(future)
+                try:
+                    yield future.result()
+                except BrokenProcessPool as error:
+                    if life == _LIVES:
+                        raise ControllerError(
+                            f"worker processes died {life} times; is there memory for them?"
+                        ) from error
+                    waiting = chain([(item, life + 1)], waiting)
     finally:
         for future in running:
             future.cancel()
@@ -97,52 +107,33 @@ def in_order(
     function: Callable[[Work], Done],
     items: Sequence[Work],
     progress: Callable[[float], None] | None = None,
-    jobs: int | None = None,
+    workers: Executor | int | None = None,
 ) -> list[Done]:
-    """Results of a function in the order of the items, by threads; ``progress`` is called with the share done.
+    """Results of a function in the order of the items; ``progress`` is called with the share done.
+
+    Args:
+        function: one that can be pickled, where other processes work.
+        items: of each, one result.
+        progress: called with the share done, 0 to 1.
+        workers: an executor, or how many threads; all cores by default.
 
     >>> in_order(abs, [-1, 2, -3])
     [1, 2, 3]
     """
-    found = []
-    with ThreadPoolExecutor(jobs or default_jobs()) as pool:
-        futures = [pool.submit(function, item) for item in items]
-        try:
-            for future in futures:
-                found.append(future.result())
-                if progress:
-                    progress(len(found) / len(futures))
-        except BaseException:
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
-    return found
+    found: dict[int, Done] = {}
+    with opened(workers) as pool:
+        for place, result in in_any_order(pool, partial(_numbered, function), enumerate(items)):
+            found[place] = result
+            if progress:
+                progress(len(found) / len(items))
+    return [found[place] for place in range(len(items))]
 
 
-class _Packed:
-    """Runs a member in another process; its study travels as bytes and is unpacked once."""
-
-    def __init__(self, packed: bytes) -> None:
-        self._packed = packed
-
-    def __call__(self, member: Member) -> Row:
-        return run_packed(self._packed, member)
-
-
-def run_packed(packed: bytes, member: Member) -> Row:
-    """Run a member of a pickled study."""
-    return run_member(_unpacked(packed), member)
-
-
-@lru_cache(maxsize=4)
-def _unpacked(packed: bytes) -> Draws:
-    return Draws(pickle.loads(packed))
+def _numbered(function: Callable[[Work], Done], item: tuple[int, Work]) -> tuple[int, Done]:
+    return item[0], function(item[1])
 
 
 def _end_with_the_parent() -> None:
     """A worker whose parent was killed would wait for work for ever."""
-    from multiprocessing import parent_process
-    from threading import Thread
-
-    parent = parent_process()
-    if parent is not None:
+    if (parent := parent_process()) is not None:
         Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()

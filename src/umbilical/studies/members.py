@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -77,9 +78,16 @@ def units_of_a_fault(campaign: Campaign) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Draws:
-    """All draws of a study."""
+    """All draws of a study; those that go to another process travel as their study, which is unpacked there once."""
 
     study: Study
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpacked, (self._packed,)
+
+    @cached_property
+    def _packed(self) -> bytes:
+        return pickle.dumps(self.study)
 
     @cached_property
     def variables(self) -> tuple[DrawnVariable, ...]:
@@ -143,6 +151,11 @@ class Draws:
             changes[factor.key] = given_by(self._base, factor, value)
         faults = [fault for campaign in self.study.campaigns if (fault := _fault(campaign, values))]
         return changes | ({"faults": [*self._base.get("faults", ()), *faults]} if faults else {})
+
+
+@lru_cache(maxsize=4)
+def _unpacked(packed: bytes) -> Draws:
+    return Draws(pickle.loads(packed))
 
 
 def given_by(base: Mapping[str, Any], factor: Factor, value: Any) -> Any:

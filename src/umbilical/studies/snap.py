@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from math import sqrt
 from typing import ClassVar
@@ -89,7 +90,7 @@ class SnapStudy(ResultFaces):
 
 
 def snap(
-    scenario: Scenario, seeds: int = 20, *, workers: int | None = None,
+    scenario: Scenario, seeds: int = 20, *, workers: Executor | int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> SnapStudy:  # fmt: skip
     """Run a rope with seeds of its own and of the next ones: each has another sea.
@@ -97,7 +98,7 @@ def snap(
     Args:
         scenario: with ``model = "rope"``.
         seeds: how many.
-        workers: threads; results do not depend on them. All cores by default.
+        workers: threads, or an executor; results do not depend on them. All cores by default.
         progress: called with the share that is done.
 
     Raises:

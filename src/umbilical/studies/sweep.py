@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,12 +16,12 @@ from umbilical.engine.simulate import simulate
 from umbilical.errors import OutputError, expect
 from umbilical.formats import to_netcdf
 from umbilical.studies.controllers import check_controllers
-from umbilical.studies.engines import Engine, default_jobs, processes, threads
+from umbilical.studies.engines import default_jobs, in_any_order, opened, processes
 from umbilical.studies.grids import on_one_grid
-from umbilical.studies.members import Draws, Member
+from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult, assemble_study
 from umbilical.studies.room import check_study_memory
-from umbilical.studies.rows import Row, from_entry
+from umbilical.studies.rows import Row, from_entry, run_member
 from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
 
@@ -30,7 +33,7 @@ def sweep(
     study: Study,
     folder: str | os.PathLike[str] | None = None,
     *,
-    engine: Engine | None = None,
+    engine: Executor | None = None,
     jobs: int | None = None,
     trust: bool = False,
     resume: bool = False,
@@ -43,8 +46,10 @@ def sweep(
     Args:
         study: what to run.
         folder: where the result (``study.nc``), the journal and complete runs go; None keeps the result in memory.
-        engine: who works (:mod:`umbilical.studies.engines`); by default threads, or processes where an arm has a
-            controller in Python. The result does not depend on it, bit for bit.
+        engine: who works, an executor of :mod:`concurrent.futures` (threads and processes of
+            :mod:`umbilical.studies.engines`, ``dask`` of :mod:`umbilical.studies.cluster`, or your own), which stays
+            open; by default threads, or processes where an arm has a controller in Python. The result does not depend
+            on it, bit for bit.
         jobs: how many work at once, for the default engine; all cores if left out.
         trust: import the Python controllers that the study's arms name. That runs their code.
         resume: go on with what is in the folder.
@@ -72,28 +77,36 @@ def sweep(
     check_study_memory(study)
     check_controllers(study, trust=trust)
     draws = Draws(study)
-    engine = engine or default_engine(study, jobs or default_jobs())
-    if folder is None:
-        return in_memory(draws, engine, progress)
-    with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
-        return _into(store, draws, engine, progress, report)
+    with open_engine(study, engine or jobs) as pool:
+        if folder is None:
+            return in_memory(draws, pool, progress)
+        with open_store(Path(folder), study, "sweep", resume=resume, force=force) as store:
+            return _into(store, draws, pool, progress, report)
 
 
-def in_memory(draws: Draws, engine: Engine, progress: Progress = lambda share: None) -> StudyResult:
+def in_memory(draws: Draws, engine: Executor, progress: Progress = lambda share: None) -> StudyResult:
     """The result of a study whose controllers have been checked."""
-    return assemble_study(draws.study, _counted(engine(draws, _members(draws, set())), len(draws), 0, progress))
+    found = _rows(engine, draws, range(1, len(draws) + 1))
+    return assemble_study(draws.study, _counted(found, len(draws), 0, progress))
 
 
-def default_engine(study: Study, jobs: int) -> Engine:
-    """Threads, or processes where an arm's controller is written in Python and holds the GIL."""
-    return (processes if any(arm.controller for arm in study.arms) else threads)(jobs)
+def open_engine(study: Study, workers: Executor | int | None) -> AbstractContextManager[Executor]:
+    """An executor that is given; else so many threads, or processes where an arm's controller is written in Python and
+    holds the GIL."""
+    if isinstance(workers, Executor) or not any(arm.controller for arm in study.arms):
+        return opened(workers)
+    return processes(workers or default_jobs())
 
 
-def _into(store: Store, draws: Draws, engine: Engine, progress: Progress, report: Report) -> StudyResult:
+def _rows(engine: Executor, draws: Draws, numbers: Iterable[int]) -> Iterator[Row]:
+    return in_any_order(engine, partial(run_member, draws), map(draws.member, numbers))
+
+
+def _into(store: Store, draws: Draws, engine: Executor, progress: Progress, report: Report) -> StudyResult:
     study, done = draws.study, {row.number for row in _stored_rows(store, draws)}
     if study.trajectories.keep != "none":
         _check_room(store, draws, report)
-    found = engine(draws, _members(draws, done))
+    found = _rows(engine, draws, (number for number in range(1, len(draws) + 1) if number not in done))
     for row in _counted(found, len(draws), len(done), progress):
         _store_runs(store, row, range(len(study.arms)))
         store.journal.append(row[:2])
@@ -114,10 +127,6 @@ def _store_runs(store: Store, row: Row, arms: Sequence[int]) -> None:
     for arm, run in zip(arms, row.runs, strict=bool(row.runs)):
         if run is not None:
             store.save(run, run_name(row.number, arm))
-
-
-def _members(draws: Draws, done: set[int]) -> Iterator[Member]:
-    return (draws.member(number) for number in range(1, len(draws) + 1) if number not in done)
 
 
 def _counted(rows: Iterator[Row], total: int, done: int, progress: Progress) -> Iterator[Row]:
@@ -165,7 +174,7 @@ def worst(result: StudyResult, metric: str, arm: str, count: int) -> list[int]:
     return [int(place) + 1 for place in order if not np.isnan(values[place])][:count]
 
 
-def _keep_the_worst(store: Store, draws: Draws, engine: Engine, result: StudyResult) -> None:
+def _keep_the_worst(store: Store, draws: Draws, engine: Executor, result: StudyResult) -> None:
     """Run the worst members of each arm once more, completely: a member is the same whenever it is run."""
     keep = draws.study.trajectories
     for number, arm in enumerate(draws.study.arms):
@@ -173,5 +182,5 @@ def _keep_the_worst(store: Store, draws: Draws, engine: Engine, result: StudyRes
         lacking = [member for member in wanted if not (store.folder / run_name(member, number)).exists()]
         whole = keep.model_copy(update={"keep": "all"})
         alone = Draws(draws.study.model_copy(update={"arms": (arm,), "trajectories": whole}))
-        for row in engine(alone, map(draws.member, lacking)) if lacking else ():
+        for row in _rows(engine, alone, lacking):
             _store_runs(store, row, [number])

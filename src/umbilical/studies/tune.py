@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass
 from math import isnan
@@ -22,7 +23,6 @@ from umbilical.scenario.problems import nearest
 from umbilical.scenario.scenario import validate
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.controllers import check_controllers
-from umbilical.studies.engines import Engine, default_jobs
 from umbilical.studies.grids import on_one_grid
 from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws, arm_data
@@ -31,7 +31,7 @@ from umbilical.studies.room import check_study_memory
 from umbilical.studies.search import Point, TrialVerdict, front, search
 from umbilical.studies.store import Store, open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
-from umbilical.studies.sweep import default_engine, in_memory
+from umbilical.studies.sweep import in_memory, open_engine
 
 Progress = Callable[[float], None]
 _NO_ANSWER = 1e6
@@ -103,7 +103,7 @@ def tune(
     study: Study,
     folder: str | os.PathLike[str] | None = None,
     *,
-    engine: Engine | None = None,
+    engine: Executor | None = None,
     constraints: Mapping[str, Constraint] | None = None,
     trust: bool = False,
     resume: bool = False,
@@ -116,7 +116,7 @@ def tune(
         study: with a section ``tuning``.
         folder: where trials are kept as they go, ``tuning.json`` and a scenario for each trial of the front,
             ``tuned-1.toml`` and so on, in the end; None keeps nothing.
-        engine: who runs the members of a trial; all cores of this machine by default.
+        engine: who runs the members of a trial, as of :func:`~umbilical.studies.sweep.sweep`; all cores by default.
         constraints: conditions by name, beside those of :data:`~umbilical.studies.constraints.CONSTRAINTS`.
         trust: import the Python controllers that the study's arms name. That runs their code.
         resume: go on with what is in the folder, to the same bytes.
@@ -141,11 +141,10 @@ def tune(
     study = on_one_grid(study)
     check_study_memory(study)
     check_controllers(study, trust=trust)
-    engine = engine or default_engine(study, default_jobs())
     task = "tune optuna"
     opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
-    with opened as store:
-        trials = _Trials(study, kept, engine, store, progress)
+    with opened as store, open_engine(study, engine) as pool:
+        trials = _Trials(study, kept, pool, store, progress)
         search(trials.judge, len(tuning.gains), len(tuning.objectives), tuning.trials, study.seed)
         found = Tuned(study, ("admitted", *kept, "completes"), tuple(trials.all))
         if store is not None:
@@ -160,7 +159,7 @@ class _Trials:
         self,
         study: Study,
         conditions: Mapping[str, Constraint],
-        engine: Engine,
+        engine: Executor,
         store: Store | None,
         progress: Progress,
     ) -> None:
@@ -200,7 +199,7 @@ def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, Trial
 
 
 def judge_gains(
-    study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Engine
+    study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Executor
 ) -> TrialVerdict:
     """Conditions first, since they are cheap; the members are run only when the scenario keeps them all."""
     tuning = tuning_of(study)

@@ -23,7 +23,8 @@ from umbilical.papers.rao2022.regions import edges
 from umbilical.papers.rao2022.tables import to_csv
 from umbilical.plots.figure import render
 from umbilical.result import ResultFaces
-from umbilical.studies.engines import in_order, worker_processes
+from umbilical.studies import engines
+from umbilical.studies.engines import in_order
 
 if TYPE_CHECKING:
     import xarray
@@ -127,7 +128,7 @@ def show_all(
 ) -> tuple[Shown, ...]:
     """All figures with their data; drawing takes as long as running, so several processes share it."""
     shown = []
-    with worker_processes(processes) if processes > 1 else nullcontext() as pool:
+    with engines.processes(processes) if processes > 1 else nullcontext() as pool:
         begin = pool.submit if pool else _at_once
         begun = [(p, data := p.data(runs, slices), begin(draw, p.name, data)) for p in pictures]
         for picture, data, drawn in begun:
