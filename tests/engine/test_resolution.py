@@ -6,7 +6,7 @@ import pytest
 
 import umbilical
 from umbilical.engine import resolution
-from umbilical.engine.resolution import GRIDS, choose_grid, difference, fixed
+from umbilical.engine.resolution import GRIDS, choose_grid, peak_error, with_grid
 from umbilical.engine.simulate import measure
 from umbilical.errors import ScenarioError
 from umbilical.library import preset_names
@@ -20,7 +20,7 @@ LONGEST = 100.0
 
 
 def peaks(scenario, elements, step):
-    metrics = measure(fixed(scenario, elements, step)).metrics
+    metrics = measure(with_grid(scenario, elements, step)).metrics
     return {name: metrics[name] for name in resolution.WATCHED}
 
 
@@ -31,8 +31,8 @@ def test_the_grid_is_right_against_four_times_its_elements(tolerance):
     assert choice.reached
     coarse, fine = (peaks(scenario, elements, choice.step) for elements in (choice.elements, 4 * choice.elements))
     assert min(fine.values()) > 0.1
-    assert difference(coarse, fine) == pytest.approx(choice.estimate, abs=0.3 * tolerance)
-    assert difference(coarse, fine) <= tolerance
+    assert peak_error(coarse, fine) == pytest.approx(choice.estimate, abs=0.3 * tolerance)
+    assert peak_error(coarse, fine) <= tolerance
 
 
 def test_a_run_says_its_grid_and_reruns_without_choosing_again():
@@ -81,8 +81,8 @@ def test_three_quarters_of_a_grid_do_where_they_do(least, chosen):
 
 
 def test_runs_that_end_otherwise_are_apart():
-    assert difference({"COMPLETED tip_peak": 1.0}, {"DIVERGED tip_peak": 1.0}) == float("inf")
-    assert difference({"tip_peak": 1e-12}, {"tip_peak": 2e-12}) == 0.0
+    assert peak_error({"COMPLETED tip_peak": 1.0}, {"DIVERGED tip_peak": 1.0}) == float("inf")
+    assert peak_error({"tip_peak": 1e-12}, {"tip_peak": 2e-12}) == 0.0
 
 
 def test_a_study_takes_one_grid_for_all_its_members():
@@ -109,4 +109,4 @@ def test_every_preset_is_right_against_four_times_its_grid(name):
     choice = choose_grid(scenario, measure)
     assert choice.reached
     coarse = peaks(scenario, choice.elements, choice.step)
-    assert difference(coarse, peaks(scenario, 4 * choice.elements, choice.step / 4)) <= 1.05 * choice.tolerance
+    assert peak_error(coarse, peaks(scenario, 4 * choice.elements, choice.step / 4)) <= 1.05 * choice.tolerance

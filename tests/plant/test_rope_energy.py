@@ -7,9 +7,9 @@ import os
 import numpy as np
 import pytest
 
-from umbilical.plant.rope.energy import energy
+from umbilical.plant.rope.energy import rope_energy
 from umbilical.plant.rope.model import BodyData, CableData, RopeModel, fixed
-from umbilical.plant.rope.rates import evaluate
+from umbilical.plant.rope.rates import evaluate_rope
 from umbilical.plant.rope.records import GRID
 from umbilical.plant.rope.statics import node_positions
 
@@ -38,11 +38,11 @@ def balance(model: RopeModel, speed: float) -> tuple[float, np.ndarray]:
     state, outside = model.state, model.state.outside[0]
     outside.payout_speed = speed
     outside.vessel_speed[:] = (0.0, 0.0, 0.1)
-    evaluate(model.rope, state, outside, np.zeros(0), model.water, 0, True)
+    evaluate_rope(model.rope, state, outside, np.zeros(0), model.water, 0, True)
     ends, h = [], 1e-8
     for sign in (h, -h):
         now, body = state.now + sign * state.rate, state.body[0] + sign * state.body[2]
-        ends.append(energy(model.rope, now[None], body[None], np.array([LENGTH + sign * speed]))[0])
+        ends.append(rope_energy(model.rope, now[None], body[None], np.array([LENGTH + sign * speed]))[0])
     return (ends[0] - ends[1]) / (2.0 * h), state.power.copy()
 
 

@@ -12,7 +12,7 @@ from umbilical.library import load
 from umbilical.plant.exogenous import Steps
 from umbilical.plant.rope.assemble import at_rest, initial_rope, rope_of
 from umbilical.plant.rope.outside import RopeSampler, still_water
-from umbilical.plant.rope.rates import evaluate
+from umbilical.plant.rope.rates import evaluate_rope
 from umbilical.plant.rope.water import stir
 
 pytestmark = pytest.mark.nojit
@@ -33,7 +33,7 @@ def started(changes: dict[str, Any]) -> Any:
 def test_it_is_at_rest_in_the_current_and_where_it_is_held(tip: float | None) -> None:
     load_there = [{"profile": {"shape": "uniform"}, "signal": [{"kind": "constant", "value": 0.2}]}]
     scenario, rope, water, state = started({"initial.tip": tip, "environment.cable_load": load_there})
-    evaluate(rope, state, state.outside[0], np.array([0.2]), water, 0, False)
+    evaluate_rope(rope, state, state.outside[0], np.array([0.2]), water, 0, False)
     assert np.abs(state.rate).max() < 1e-3  # 0.03 m/s2 without the load
     assert np.abs(state.body[2]).max() < 1e-4
     force = at_rest(scenario, rope, water)[1].force

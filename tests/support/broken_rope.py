@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from umbilical.plant.rope import assemble, model, outside
-from umbilical.plant.rope.records import Rope
+from umbilical.plant.rope.records import RopeConstants
 from umbilical.plant.seaway import Sheave
 from umbilical.scenario.environment import Environment
 from umbilical.verify import rope_manufactured
@@ -17,13 +17,13 @@ from umbilical.verify import rope_manufactured
 Break = Callable[[pytest.MonkeyPatch], None]
 
 
-def another_rope(change: Callable[[Rope], dict[str, Any]]) -> Break:
+def another_rope(change: Callable[[RopeConstants], dict[str, Any]]) -> Break:
     """Other constants than those that are asked for."""
 
     def apply(patch: pytest.MonkeyPatch) -> None:
         right = model.make_rope
 
-        def wrong(*arguments: Any, **named: Any) -> Rope:
+        def wrong(*arguments: Any, **named: Any) -> RopeConstants:
             rope = right(*arguments, **named)
             return rope._replace(**change(rope))
 

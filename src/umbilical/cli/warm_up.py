@@ -21,7 +21,7 @@ def warm_up() -> int:
 
     for part in warming.PARTS:
         begun = perf_counter()
-        warming.warm_up(part)
+        warming.compile_part(part)
         print_result(f"{part}: {perf_counter() - begun:.1f} s")
     print_result(f"kept in {cache_folder()}")
     return 0

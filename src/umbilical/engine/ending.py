@@ -48,7 +48,7 @@ def so_far(setup: Setup) -> tuple[int, float]:
     return updates, max(updates - 1, 0) * setup.clock.period
 
 
-def diverged(setup: Setup, update: int) -> Ending:
+def divergence(setup: Setup, update: int) -> Ending:
     time = update * setup.clock.period
     steepest = float(setup.record.tally.slopes.max())
     if steepest > 1.0:
@@ -138,12 +138,12 @@ def closed(named: dict[str, np.ndarray], works: np.ndarray) -> dict[str, float]:
 def all_metrics(scenario: Scenario, setup: Setup) -> dict[str, float]:
     """Metrics of a run so far, without those of the power balance; what there was nothing to measure of is absent."""
     tally, tip = setup.record.tally, float(setup.world.state.now[0].ends.tip_displacement)
-    return measured(scenario, base_metrics(tally, tip, slope_peak=float(tally.slopes.max()))) | saturation(
+    return only_measured(scenario, base_metrics(tally, tip, slope_peak=float(tally.slopes.max()))) | saturation(
         scenario, tally
     )
 
 
-def measured(scenario: Scenario, metrics: dict[str, float]) -> dict[str, float]:
+def only_measured(scenario: Scenario, metrics: dict[str, float]) -> dict[str, float]:
     """The same without what there was nothing to measure of."""
     absent = {"tip_peak_after_fault": not scenario.faults, "effort_rms": np.isnan(metrics["effort_rms"])}
     return {name: value for name, value in metrics.items() if not absent.get(name)}

@@ -16,7 +16,7 @@ from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
 from umbilical.control.contract import Command, Decision, Readings
 from umbilical.engine.recording import Log, Tally, measure, store
-from umbilical.engine.sensing import Sensors, SensorState, sense
+from umbilical.engine.sensing import SensorErrors, SensorState, sense
 from umbilical.engine.stepping import DRY, WET, Plant, PlantState, advance, enter_dry_step, enter_step
 from umbilical.errors import ControllerError
 from umbilical.plant.exogenous import Inputs
@@ -29,13 +29,13 @@ class World(NamedTuple):
 
     plant: Plant
     state: PlantState
-    sensors: Sensors
+    sensors: SensorErrors
     memory: SensorState
     readings: Readings
     decision: Decision
 
 
-class Record(NamedTuple):
+class RunRecord(NamedTuple):
     """What is kept of a run.
 
     Attributes:
@@ -60,7 +60,7 @@ def actuate(world: World) -> None:
 
 
 @glue
-def keep(world: World, record: Record, update: int, kappa: np.ndarray) -> bool:
+def keep(world: World, record: RunRecord, update: int, kappa: np.ndarray) -> bool:
     """Take one control sample into the record; False if the model has ended."""
     good = measure(record.tally, world.state, world.decision, update >= record.fault_update)
     if good and (update % record.every == 0 or update == record.last_update):
@@ -71,7 +71,7 @@ def keep(world: World, record: Record, update: int, kappa: np.ndarray) -> bool:
 
 @entry_kernel
 def run_steps(
-    world: World, settings: CascadeSettings, memory: CascadeState, record: Record, inputs: Inputs, first: np.ndarray,
+    world: World, settings: CascadeSettings, memory: CascadeState, record: RunRecord, inputs: Inputs, first: np.ndarray,
     noise: np.ndarray, begin: int,
 ) -> int:  # fmt: skip
     """Control periods ``begin`` onwards, period j having the steps ``first[j]`` to ``first[j + 1]``.
@@ -83,7 +83,7 @@ def run_steps(
 
 @entry_kernel
 def run_dry_steps(
-    world: World, settings: CascadeSettings, memory: CascadeState, record: Record, inputs: Inputs, first: np.ndarray,
+    world: World, settings: CascadeSettings, memory: CascadeState, record: RunRecord, inputs: Inputs, first: np.ndarray,
     noise: np.ndarray, begin: int,
 ) -> int:  # fmt: skip
     """The same without water, in two thirds of the time to compile."""
@@ -92,7 +92,7 @@ def run_dry_steps(
 
 @glue
 def run_periods(
-    world: World, settings: CascadeSettings, memory: CascadeState, record: Record, inputs: Inputs, first: np.ndarray,
+    world: World, settings: CascadeSettings, memory: CascadeState, record: RunRecord, inputs: Inputs, first: np.ndarray,
     noise: np.ndarray, begin: int, wet: bool,
 ) -> int:  # fmt: skip
     """The body of :func:`run_steps`."""
@@ -147,7 +147,7 @@ def run_held(
     world: World,
     settings: CascadeSettings,
     memory: CascadeState,
-    record: Record,
+    record: RunRecord,
     inputs: Inputs,
     first: np.ndarray,
     noise: np.ndarray,

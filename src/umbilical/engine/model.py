@@ -10,7 +10,7 @@ import numpy as np
 from umbilical.control import cascade
 from umbilical.control.contract import Command, Measurement, to_measurement
 from umbilical.engine import loop
-from umbilical.engine.ending import Ending, all_metrics, assemble_run, diverged, so_far
+from umbilical.engine.ending import Ending, all_metrics, assemble_run, divergence, so_far
 from umbilical.engine.saturation import saturation_notices
 from umbilical.engine.schedule import Clock, Stretch
 from umbilical.engine.setup import set_up
@@ -162,7 +162,7 @@ class StringModel:
         return so_far(self._setup)
 
     def diverged(self, update: int) -> Ending:
-        return diverged(self._setup, update)
+        return divergence(self._setup, update)
 
     def notices(self) -> tuple[str, ...]:
         return tuple(str(notice) for notice in saturation_notices(self._scenario, self._setup.record.tally))
@@ -189,7 +189,7 @@ def arrays_of(tree: Any) -> Iterator[np.ndarray]:
 def make_model(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Model:
     """The model a scenario names, ready for its first step; ``held``: commands will come from outside."""
     if scenario.model == "rope":
-        from umbilical.engine.rope.model import RopeModel
+        from umbilical.engine.rope.model import SpatialModel
 
-        return RopeModel(scenario, stored=stored)
+        return SpatialModel(scenario, stored=stored)
     return StringModel(scenario, stored=stored, held=held)

@@ -13,7 +13,7 @@ from umbilical.engine.stepping import PlantState
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import PRESENT, Ends
 from umbilical.plant.exogenous import Exogenous
-from umbilical.plant.forces.table import IN_WATER, AlongWorks, EndWorks, add_up
+from umbilical.plant.forces.table import IN_WATER, AlongWorks, EndWorks, sum_works
 from umbilical.plant.layout import integrate, probe, to_nodal
 from umbilical.plant.motors import MotorState
 from umbilical.quantities import CHANNELS
@@ -255,7 +255,7 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     log.outside[row] = now.outside
     log.ends[row] = now.ends
     log.works[row] = now.works
-    add_up(state.work, now.works, log.along[row])
+    sum_works(state.work, now.works, log.along[row])
     log.outer[row] = decision.outer[0]
     store_derived(log.derived[row], state, decision)
     for k in range(state.motors.size):

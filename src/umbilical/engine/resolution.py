@@ -74,7 +74,7 @@ def choose_grid(scenario: Scenario, measure: Measure, progress: Callable[[float]
 
     def judged(elements: int, finer: tuple[int, ...]) -> ChosenGrid:
         peaks = found[elements] if elements in found else _peaks(scenario, measure, elements, step)
-        error = max(difference(peaks, found[more]) for more in finer)
+        error = max(peak_error(peaks, found[more]) for more in finer)
         return ChosenGrid(elements, _taken(scenario, elements, step), finer[-1], error, tolerance)
 
     choice = None
@@ -105,18 +105,18 @@ def on_chosen_grid(
     if scenario.grid.tolerance is None:
         return scenario, ()
     choice = choose_grid(scenario, measure, progress)
-    return fixed(scenario, choice.elements, choice.step), (str(choice),)
+    return with_grid(scenario, choice.elements, choice.step), (str(choice),)
 
 
-def fixed(scenario: Scenario, elements: int, step: float) -> Scenario:
+def with_grid(scenario: Scenario, elements: int, step: float) -> Scenario:
     """A scenario on a grid that is no longer chosen."""
     return scenario.replace({"grid.elements": elements, "grid.step": step, "grid.tolerance": None})
 
 
-def difference(peaks: Peaks, finer: Peaks) -> float:
+def peak_error(peaks: Peaks, finer: Peaks) -> float:
     """Largest relative difference of a peak; infinite where one run ended otherwise than the other.
 
-    >>> difference({"tip_peak": 1.0, "mid_peak": 0.0}, {"tip_peak": 1.25, "mid_peak": 1e-12})
+    >>> peak_error({"tip_peak": 1.0, "mid_peak": 0.0}, {"tip_peak": 1.25, "mid_peak": 1e-12})
     0.2
     """
     if peaks.keys() != finer.keys():
@@ -126,7 +126,7 @@ def difference(peaks: Peaks, finer: Peaks) -> float:
 
 def _peaks(scenario: Scenario, measure: Measure, elements: int, step: float) -> Peaks:
     """The peaks of one run, under names that say whether it came to its end."""
-    found = measure(fixed(scenario, elements, step))
+    found = measure(with_grid(scenario, elements, step))
     return {f"{found.status.name} {name}": found.metrics[name] for name in WATCHED if name in found.metrics}
 
 
@@ -137,11 +137,11 @@ def _fine_step(scenario: Scenario, measure: Measure, tolerance: float, elements:
     for _ in range(4):
         step_taken = _taken(scenario, elements, step)
         halved = _peaks(scenario, measure, elements, step_taken / 2)
-        if difference(peaks, halved) <= tolerance:
+        if peak_error(peaks, halved) <= tolerance:
             return step
         step, peaks = step_taken / 2, halved
     return step
 
 
 def _taken(scenario: Scenario, elements: int, step: float) -> float:
-    return chosen_step(fixed(scenario, elements, step))
+    return chosen_step(with_grid(scenario, elements, step))

@@ -24,7 +24,7 @@ class SensorError(Frame):
     sensor_dropout = real()
 
 
-class Sensors(NamedTuple):
+class SensorErrors(NamedTuple):
     """Errors of every channel: those at the ROV, then a quantity of all motors after another; ``perfect``: none."""
 
     perfect: bool
@@ -49,7 +49,7 @@ class SensorState(NamedTuple):
     motors: np.ndarray
 
 
-def make_sensors(scenario: Scenario) -> Sensors:
+def make_sensors(scenario: Scenario) -> SensorErrors:
     """Sensors of a scenario; latency in whole control periods."""
     names = [*TipReadings.fields, *(name for name in MotorReadings.fields for _ in scenario.motors)]
     errors = SensorError.many(len(names))
@@ -57,10 +57,10 @@ def make_sensors(scenario: Scenario) -> Sensors:
         c = getattr(scenario.sensors, name)
         latency = round(c.latency / scenario.control.period)
         errors[k] = (c.bias, c.noise, c.resolution, latency, c.dropout)
-    return Sensors(not any(any(numbers(error)) for error in errors), errors)
+    return SensorErrors(not any(any(numbers(error)) for error in errors), errors)
 
 
-def make_sensor_state(sensors: Sensors, readings: Readings) -> SensorState:
+def make_sensor_state(sensors: SensorErrors, readings: Readings) -> SensorState:
     """Nothing read yet."""
     depth, width = int(sensors.errors["latency_samples"].max(initial=0)) + 1, sensors.errors.size
     tip, motors = as_array(readings.tip)[0], as_array(readings.motors)
@@ -70,7 +70,7 @@ def make_sensor_state(sensors: Sensors, readings: Readings) -> SensorState:
 class NoiseSource:
     """Draws of noise and drop-outs, in the order of the updates: they do not depend on how a run is cut up."""
 
-    def __init__(self, sensors: Sensors, seed: int | tuple[int, int]) -> None:
+    def __init__(self, sensors: SensorErrors, seed: int | tuple[int, int]) -> None:
         self._sensors, self._drawn = sensors, 0
         streams = np.random.SeedSequence(seed).spawn(2)
         self._noise, self._lost = (np.random.Generator(np.random.Philox(stream)) for stream in streams)
@@ -128,7 +128,7 @@ def read_truth(state: PlantState, readings: Readings) -> None:
 
 
 @kernel
-def add_errors(s: Sensors, memory: SensorState, noise: np.ndarray) -> None:
+def add_errors(s: SensorErrors, memory: SensorState, noise: np.ndarray) -> None:
     """Errors of every channel on what was read of the truth."""
     tip, motors = memory.tip, memory.motors
     for c in range(tip.size):
@@ -155,7 +155,9 @@ def with_errors(error: SensorError, memory: SensorState, noise: np.ndarray, c: i
 
 
 @glue
-def sense(s: Sensors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings) -> None:
+def sense(
+    s: SensorErrors, memory: SensorState, noise: np.ndarray, row: int, state: PlantState, readings: Readings
+) -> None:
     """One sample of all sensors into ``readings``; ``row`` is the update's row in ``noise``."""
     read_truth(state, readings)
     if not s.perfect:

@@ -26,7 +26,7 @@ class Setup(NamedTuple):
 
     clock: Clock
     world: loop.World
-    record: loop.Record
+    record: loop.RunRecord
     dice: NoiseSource
     settings: cascade.CascadeSettings
     memory: cascade.CascadeState
@@ -67,13 +67,13 @@ def set_up(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Se
     return Setup(clock, world, _record(scenario, clock, stored), NoiseSource(sensors, scenario.seed), settings, memory)
 
 
-def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.Record:
+def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.RunRecord:
     every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
     samples = clock.periods // every + 1 + (clock.periods % every > 0)
     first = faults.first_fault(scenario.faults)
     fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
     elements = scenario.grid.elements
-    return loop.Record(
+    return loop.RunRecord(
         make_log(samples, len(scenario.motors), elements),
         make_tally(elements, scenario.motors),
         every,

@@ -22,7 +22,7 @@ from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
 
 
-class Outcome(NamedTuple):
+class MeasuredRun(NamedTuple):
     """What :func:`measure` keeps of a run: how it ended, when and why, and its metrics in SI units."""
 
     status: Status
@@ -111,7 +111,7 @@ def check_controller(controller: object) -> None:
         raise ControllerError(f"{name} is a class; the controller is an object of it, such as {name}()")
 
 
-def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome:
+def measure(scenario: Scenario, controller: Controller | None = None) -> MeasuredRun:
     """Simulate for the metrics alone: the same numbers as :func:`simulate`, without storing or labelling a sample.
 
     What is read from stored fields, the power balance, is left out.
@@ -127,17 +127,17 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Outcome
     return _measure(_on_its_grid(scenario, controller)[0], controller)
 
 
-def _measure(scenario: Scenario, controller: Controller | None) -> Outcome:
+def _measure(scenario: Scenario, controller: Controller | None) -> MeasuredRun:
     if controller is not None:
         episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
         if (error := follow(episode, controller)) is not None:
             raise error
         ending = episode.end()
-        return Outcome(ending.status, ending.reason, ending.time, episode.metrics())
+        return MeasuredRun(ending.status, ending.reason, ending.time, episode.metrics())
     admit(scenario)
     model = make_model(scenario, stored=False)
     ending, _ = _run(scenario, model, None)
-    return Outcome(ending.status, ending.reason, ending.time, model.metrics())
+    return MeasuredRun(ending.status, ending.reason, ending.time, model.metrics())
 
 
 def rehearse(scenario: Scenario, controller: Controller) -> None:

@@ -12,7 +12,7 @@ from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import (
     PRESENT,
     RATES,
-    Cable,
+    CableConstants,
     Ends,
     add_up_displacement,
     at_moment,
@@ -84,7 +84,7 @@ class Plant(NamedTuple):
     ``explicit`` and ``implicit`` are the weights of the multistep method, see ``plant/multistep.py``.
     """
 
-    cable: Cable
+    cable: CableConstants
     forces: Forces
     motors: MotorParameters
     ideal: bool

@@ -9,10 +9,10 @@ from umbilical.engine.simulate import simulate
 from umbilical.library import load
 
 
-def warm_up(part: str) -> None:
+def compile_part(part: str) -> None:
     """Compile the kernels of one of :data:`PARTS`, or load them from disk if they are there.
 
-    >>> warm_up("the built-in controller")
+    >>> compile_part("the built-in controller")
     """
     PARTS[part]()
 

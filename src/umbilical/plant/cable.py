@@ -87,7 +87,7 @@ class Derivative(NamedTuple):
     lift: float
 
 
-class Cable(NamedTuple):
+class CableConstants(NamedTuple):
     """Constants of cable and ROV, SI units."""
 
     line_inertia: float
@@ -128,12 +128,12 @@ class Moment(NamedTuple):
     across: Hanging
 
 
-def make_cable(scenario: Scenario) -> Cable:
+def make_cable(scenario: Scenario) -> CableConstants:
     """Constants of a scenario's cable."""
     sections = scenario.cable, scenario.payload, scenario.environment
     added, density = in_water(*sections).added, scenario.cable.line_density
     above = 1.0 - positions(scenario.grid.elements)
-    return Cable(
+    return CableConstants(
         line_inertia=density + added,
         hanging=hanging_of(*sections),
         axial_drag=axial_drag_of(*sections),
@@ -155,7 +155,7 @@ def make_derivative(elements: int) -> Derivative:
 
 
 @glue
-def at_moment(cable: Cable, outside: Exogenous) -> Moment:
+def at_moment(cable: CableConstants, outside: Exogenous) -> Moment:
     """What the kernels need of the outside world."""
     sinks = outside.sink_speed
     carried = sinking(cable.hanging, cable.axial_drag, sinks)
@@ -180,7 +180,7 @@ def make_blocks(slopes: np.ndarray) -> np.ndarray:
 
 
 @row_kernel
-def meet(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment) -> None:
+def meet(cable: CableConstants, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment) -> None:
     """Flux at the interfaces inside the cable, from the two waves that run into each, and the power it takes, W.
 
     ``W* = (W- + W+)/2 + c (p+ - p-)/2`` and ``p* = (p- + p+)/2 + (W+ - W-)/(2 c)``, - on the vessel's side. With
@@ -206,7 +206,7 @@ def meet(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, mom
 
 
 @kernel
-def look_at_ends(cable: Cable, x: np.ndarray, ends: Ends, moment: Moment) -> None:
+def look_at_ends(cable: CableConstants, x: np.ndarray, ends: Ends, moment: Moment) -> None:
     """Slopes y_x at ROV and vessel, each from the wave that runs into it."""
     n = x.shape[1] // 2
     length, slip = moment.length, moment.slip
@@ -222,7 +222,9 @@ def look_at_ends(cable: Cable, x: np.ndarray, ends: Ends, moment: Moment) -> Non
 
 
 @kernel
-def meet_ends(cable: Cable, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, moment: Moment) -> None:
+def meet_ends(
+    cable: CableConstants, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, moment: Moment
+) -> None:
     """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
     n = faces.shape[1] - 1
     length, slip = moment.length, moment.slip
@@ -254,7 +256,7 @@ def differentiate(d: Derivative, f: Five, left: float, right: float) -> Five:
 
 
 @row_kernel
-def rates_inside(cable: Cable, x: np.ndarray, faces: np.ndarray, out: np.ndarray, moment: Moment) -> None:
+def rates_inside(cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: np.ndarray, moment: Moment) -> None:
     """out: d/dsigma of the brackets of the two conservation laws, at every node.
 
     A loop for each, because the addresses of all rows in one are more than a processor has registers for.
@@ -311,7 +313,13 @@ def march(x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, lo
 
 @glue
 def evaluate(
-    cable: Cable, blocks: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, slot: int, moment: Moment
+    cable: CableConstants,
+    blocks: np.ndarray,
+    faces: np.ndarray,
+    losses: np.ndarray,
+    ends: Ends,
+    slot: int,
+    moment: Moment,
 ) -> None:
     """Rates of the free cable at the present instant into block ``slot`` (0 to 2); forces are added to them."""
     x, rate = blocks[PRESENT], blocks[RATES + slot]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from umbilical.engine.simulate import Outcome, measure, simulate
+from umbilical.engine.simulate import MeasuredRun, measure, simulate
 from umbilical.errors import ControllerError, FileError, ScenarioError
 from umbilical.quantities import METRICS
 from umbilical.scenario import Scenario
@@ -91,10 +91,10 @@ def _stored(scenario: Scenario, controller: Any) -> tuple[Cell, bytes]:
     from umbilical.formats import to_netcdf
 
     run = simulate(scenario, controller)
-    return _cell(Outcome(run.status, run.reason, run.end_time, run.metrics)), to_netcdf(run.data)
+    return _cell(MeasuredRun(run.status, run.reason, run.end_time, run.metrics)), to_netcdf(run.data)
 
 
-def _cell(outcome: Outcome) -> Cell:
+def _cell(outcome: MeasuredRun) -> Cell:
     metrics = tuple(float(outcome.metrics.get(name, float("nan"))) for name in NAMES)
     return Cell(outcome.status.name, outcome.reason, float(outcome.end_time), metrics)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from umbilical.library import load
-from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, fixed
+from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, SteadyCurrent, fixed
 from umbilical.plant.rope.statics import put_shape
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, close, each, each_close, small
@@ -152,7 +152,7 @@ def _place_and_pull(model: RopeModel) -> tuple[float, float]:
     return model.body_position[2], norm(model.top_pull)
 
 
-SHEAR = Current((0.0, -200.0, -1000.0), ((0.8, 0.1, 0.0), (0.5, 0.2, 0.0), (0.2, -0.1, 0.0)))
+SHEAR = SteadyCurrent((0.0, -200.0, -1000.0), ((0.8, 0.1, 0.0), (0.5, 0.2, 0.0), (0.2, -0.1, 0.0)))
 
 
 def _sheared_current() -> Iterator[Check]:
@@ -178,7 +178,7 @@ TOWED_BODY = BodyData(300.0, 1500.0, (100.0, 200.0, 200.0), drag=(200.0, 200.0, 
 
 def _tow() -> Iterator[Check]:
     """600 m towed at 1.5 m/s, in a current, and by a moving vessel in still water."""
-    flow = Current((0.0,), ((1.5, 0.0, 0.0),))
+    flow = SteadyCurrent((0.0,), ((1.5, 0.0, 0.0),))
     model = RopeModel(TOWED, TOWED_BODY, fixed(600.0), flow)
     towed = reference.Towed(1e7, 8.0, 0.0173, 1.5, 0.02, 1.0, 600.0, 1500.0, (200.0, 200.0, 300.0))
     place, top = reference.shape_in_current(towed, lambda z: np.array([1.5, 0.0, 0.0]))

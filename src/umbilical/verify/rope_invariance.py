@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, fixed
+from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, SteadyCurrent, fixed
 from umbilical.verify.cases import Case, Check, at_least, each_close, history_close, small
 from umbilical.verify.invariance import TWO_RUNS
 from umbilical.verify.rope import G, quintic_winch, recorded, steady, waving
@@ -60,11 +60,11 @@ def _swinging(turn: Turn, carried: float = 0.0, cable: CableData = LINE) -> np.n
         place, speed = sways(t)
         return turn(place + np.multiply.outer(t, drift)), turn(speed + drift)
 
-    current, body, force = Current(HEIGHTS, _levels(turn(SHEAR))), _body_with(BODY, turn), _vector(turn(FORCE))
+    current, body, force = SteadyCurrent(HEIGHTS, _levels(turn(SHEAR))), _body_with(BODY, turn), _vector(turn(FORCE))
     model = RopeModel(cable, body, Motion(quintic_winch(200.0, 215.0, 10.0), sways if not carried else None), current,
                       elements=4, force=force)  # fmt: skip
     if carried:
-        model.water = RopeModel(cable, body, fixed(200.0), Current(HEIGHTS, _levels(turn(SHEAR + drift))),
+        model.water = RopeModel(cable, body, fixed(200.0), SteadyCurrent(HEIGHTS, _levels(turn(SHEAR + drift))),
                                 elements=4, settled=False).water  # fmt: skip
         model.state.now[:, 12:24] += np.repeat(turn(drift), 4)
         model.state.body[0] += turn(drift)
@@ -129,7 +129,7 @@ def _out_and_in() -> Iterator[Check]:
         omega = 2.0 * np.pi / 1200.0
         return 204.0 - 4.0 * np.cos(omega * t), 4.0 * omega * np.sin(omega * t)
 
-    model = RopeModel(LINE, BODY, Motion(law), Current(HEIGHTS, _levels(SHEAR)), elements=4, force=_vector(FORCE))
+    model = RopeModel(LINE, BODY, Motion(law), SteadyCurrent(HEIGHTS, _levels(SHEAR)), elements=4, force=_vector(FORCE))
     before = model.position
     model.step(600.0)
     out = np.abs(model.position - before).max()

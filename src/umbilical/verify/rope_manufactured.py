@@ -8,9 +8,9 @@ from itertools import pairwise
 import numpy as np
 
 from umbilical.analysis.convergence import Curve
-from umbilical.plant.rope.model import BodyData, CableData, Current, Motion, RopeModel, make_rope, water_of
-from umbilical.plant.rope.rates import evaluate
-from umbilical.plant.rope.records import RopeState, make_state
+from umbilical.plant.rope.model import BodyData, CableData, Motion, RopeModel, SteadyCurrent, make_rope, water_of
+from umbilical.plant.rope.rates import evaluate_rope
+from umbilical.plant.rope.records import RopeState, make_rope_state
 from umbilical.plant.rope.statics import node_positions, unknowns
 from umbilical.verify.cases import Case, Check, each, order_reached, small
 from umbilical.verify.orders import ROPE_ORDER, TIME_ORDER
@@ -33,8 +33,8 @@ class _Driven:
         cable = CableData(p.stiffness, p.density, p.weight, p.diameter, p.normal, p.tangential, p.added_mass)
         body = BodyData(p.mass, p.body_weight, p.body_added, drag=p.body_drag)
         self.problem, self.elements = problem, elements
-        self.rope, self.water = make_rope(cable, body, elements), water_of(Current(velocities=(p.current,)))
-        self.state: RopeState = make_state(elements)
+        self.rope, self.water = make_rope(cable, body, elements), water_of(SteadyCurrent(velocities=(p.current,)))
+        self.state: RopeState = make_rope_state(elements)
         self.sigma = node_positions(elements)
         self.state.now[:], self.state.body[0] = self.exact(0.0)
 
@@ -55,7 +55,7 @@ class _Driven:
         outside.body_force[:] = exact.body_force(self.problem, t)
         state.now[:] = values[: state.now.size].reshape(state.now.shape)
         state.body[0] = values[state.now.size :]
-        evaluate(self.rope, state, outside, np.zeros(0), self.water, 0, False)
+        evaluate_rope(self.rope, state, outside, np.zeros(0), self.water, 0, False)
         given = exact.acceleration_given(self.problem, self.sigma.ravel(), t).reshape(3, 5, n)
         state.rate[:, 3 * n :] += np.moveaxis(given, 0, 1).reshape(5, 3 * n)
         return np.concatenate([state.rate.ravel(), state.body[2]])
@@ -107,7 +107,7 @@ def _in_time() -> Iterator[Check]:
     motion = Motion(quintic_winch(60.0, 61.0, 2.0), waving({0: (0.3, 2.0), 2: (0.1, 2.5)}, 1.0))
     found = []
     for step in STEPS:
-        model = RopeModel(cable, body, motion, Current(velocities=((0.3, -0.4, 0.0),)), elements=4, step=step)
+        model = RopeModel(cable, body, motion, SteadyCurrent(velocities=((0.3, -0.4, 0.0),)), elements=4, step=step)
         model.step(2.0)
         found.append(np.concatenate([model.position.ravel(), model.velocity.ravel()]))
     changes = tuple(float(np.abs(b - a).max()) for a, b in pairwise(found))

@@ -12,7 +12,7 @@ from umbilical.control.cascade import CascadeSettings, CascadeState, start, upda
 from umbilical.control.outer.table import NONE
 from umbilical.engine.loop import FINISHED
 from umbilical.engine.rope.recording import RopeLog, RopeTally, measure_rope, store_rope
-from umbilical.engine.rope.world import RopeWorld, advance, enter_step, sense
+from umbilical.engine.rope.world import RopeWorld, advance_rope_plant, enter_rope_step, sense_rope
 from umbilical.plant.rope.outside import RopeInputs
 
 
@@ -45,7 +45,7 @@ class RopeControl(NamedTuple):
 
 
 @glue
-def share(control: RopeControl, world: RopeWorld) -> None:
+def allocate_rope(control: RopeControl, world: RopeWorld) -> None:
     """Demands on the motors from the commanded thrusts of both directions."""
     motors, along, across = control.settings.motors, world.along.decision, world.across.decision
     allocate_both(
@@ -55,7 +55,7 @@ def share(control: RopeControl, world: RopeWorld) -> None:
 
 
 @glue
-def decide(control: RopeControl, world: RopeWorld) -> None:
+def decide_rope(control: RopeControl, world: RopeWorld) -> None:
     """One update of the built-in controller: the outer law per direction, then the motors."""
     settings, along, across = control.settings, world.along, world.across
     if settings.outer.laws.kind != NONE:
@@ -63,7 +63,7 @@ def decide(control: RopeControl, world: RopeWorld) -> None:
             update_outer(settings.outer, control.along, along.readings, along.decision)
             update_outer(control.settings_across.outer, control.across, across.readings, across.decision)
             if settings.motors.driven:
-                share(control, world)
+                allocate_rope(control, world)
         if settings.motors.driven:
             update_motors(settings.motors, control.along, along.readings, along.decision)
     control.along.outer[0].updates += 1
@@ -71,7 +71,7 @@ def decide(control: RopeControl, world: RopeWorld) -> None:
 
 
 @glue
-def actuate(world: RopeWorld) -> None:
+def actuate_rope(world: RopeWorld) -> None:
     """An ideal thruster delivers the new command at once; motors take their time."""
     if world.plant.ideal:
         now = world.state.now[0]
@@ -81,7 +81,7 @@ def actuate(world: RopeWorld) -> None:
 
 
 @glue
-def keep(world: RopeWorld, record: RopeRecord, update: int, kappa: np.ndarray) -> bool:
+def keep_rope(world: RopeWorld, record: RopeRecord, update: int, kappa: np.ndarray) -> bool:
     """Take one control sample into the record; False if the model has ended."""
     good = measure_rope(record.tally, world, update >= record.fault_update, update * record.period)
     if good and (update % record.every == 0 or update == record.last_update):
@@ -95,17 +95,17 @@ def observe_rope(
 ) -> None:
     """The outside world after a jump, then the sensors."""
     if first[j] < first[j + 1] and inputs.plane.refresh[first[j]]:
-        enter_step(world.plant, world.state, inputs, first[j])
-    sense(world, noise, across, j)
+        enter_rope_step(world.plant, world.state, inputs, first[j])
+    sense_rope(world, noise, across, j)
 
 
 @glue
-def advance_period(world: RopeWorld, inputs: RopeInputs, begin: int, end: int) -> None:
+def advance_rope_period(world: RopeWorld, inputs: RopeInputs, begin: int, end: int) -> None:
     """All plant steps of one control period."""
     for i in range(begin, end):
         if i > begin and inputs.plane.refresh[i]:
-            enter_step(world.plant, world.state, inputs, i)
-        advance(world.plant, world.state, inputs, i, world.along.decision.motors)
+            enter_rope_step(world.plant, world.state, inputs, i)
+        advance_rope_plant(world.plant, world.state, inputs, i, world.along.decision.motors)
 
 
 @entry_kernel
@@ -127,17 +127,17 @@ def run_rope_steps(
             start(control.settings, control.along, world.along.readings)
             start(control.settings_across, control.across, world.across.readings)
         if inside:
-            decide(control, world)
+            decide_rope(control, world)
         else:
             if driven:
                 if decided and j == periods[0]:
-                    share(control, world)
+                    allocate_rope(control, world)
                 update_motors(control.settings.motors, control.along, world.along.readings, world.along.decision)
             control.along.outer[0].updates += 1
-        actuate(world)
-        if not keep(world, record, begin + j, control.along.kappa):
+        actuate_rope(world)
+        if not keep_rope(world, record, begin + j, control.along.kappa):
             return begin + j
-        advance_period(world, inputs, first[j], first[j + 1])
+        advance_rope_period(world, inputs, first[j], first[j + 1])
     if not inside and periods[1] < first.size - 1:
         observe_rope(world, inputs, first, noise, across, periods[1])
     return FINISHED

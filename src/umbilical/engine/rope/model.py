@@ -24,14 +24,14 @@ from umbilical.control.contract import (
     to_measurement,
 )
 from umbilical.engine import loop
-from umbilical.engine.ending import Ending, base_metrics, closed, held_values, measured, stored_times
+from umbilical.engine.ending import Ending, base_metrics, closed, held_values, only_measured, stored_times
 from umbilical.engine.model import arrays_of
 from umbilical.engine.rope.loop import RopeControl, RopeRecord, observe_once, run_rope_steps
 from umbilical.engine.rope.recording import MOST_SNAPS, make_rope_log, make_rope_tally, rope_channels
 from umbilical.engine.rope.world import RopeNow, RopePlant, RopePlantState, RopeWorld, Side
 from umbilical.engine.saturation import saturation, saturation_notices
 from umbilical.engine.schedule import Stretch, make_clock
-from umbilical.engine.sensing import NoiseSource, Sensors, make_sensor_state, make_sensors
+from umbilical.engine.sensing import NoiseSource, SensorErrors, make_sensor_state, make_sensors
 from umbilical.engine.setup import loop_of
 from umbilical.frames import numbers
 from umbilical.plant import faults
@@ -39,9 +39,9 @@ from umbilical.plant.exogenous import published_jumps
 from umbilical.plant.layout import positions
 from umbilical.plant.motors import MotorState, make_motors
 from umbilical.plant.rope.assemble import initial_rope, rope_of, rope_step, section
-from umbilical.plant.rope.energy import energy
+from umbilical.plant.rope.energy import rope_energy
 from umbilical.plant.rope.outside import RopeSampler, still_water
-from umbilical.plant.rope.records import POWERS, STAGES, Rope, RopeOutside
+from umbilical.plant.rope.records import POWERS, STAGES, RopeConstants, RopeOutside
 from umbilical.relations.instants import count_up
 from umbilical.run import Run, Status, assemble
 from umbilical.scenario.scenario import Scenario
@@ -50,7 +50,7 @@ DENSE = 0.5
 """|r_x| below which an element is too long for the loops of its slack cable."""
 
 
-class RopeModel:
+class SpatialModel:
     """The rope, in space."""
 
     def __init__(self, scenario: Scenario, *, stored: bool = True) -> None:
@@ -73,7 +73,7 @@ class RopeModel:
         scenario, count = self._scenario, len(self._scenario.motors)
         sensors, readings, other = make_sensors(scenario), make_readings(count), make_readings(count)
         of_tip = sensors.errors[: len(TipReadings.fields)]
-        across = Sensors(not any(any(numbers(error)) for error in of_tip), of_tip)
+        across = SensorErrors(not any(any(numbers(error)) for error in of_tip), of_tip)
         tip_only = Readings(other.tip, other.winch, MotorReadings.many(0))
         state = RopePlantState(
             RopeNow.many(1),
@@ -110,7 +110,7 @@ class RopeModel:
         return RopeRecord(
             make_rope_log(samples, len(scenario.motors), elements),
             make_rope_tally(
-                elements, scenario.motors, axial_period(self._rope, state.outside[0].length), state.joints[:, -1]
+                elements, scenario.motors, axial_period_of(self._rope, state.outside[0].length), state.joints[:, -1]
             ),
             every,
             clock.periods + 1 if first is None else count_up(first, clock.period),
@@ -225,7 +225,7 @@ class RopeModel:
         }
         if watch.snaps:
             found["largest_snap"] = watch.largest_snap
-        found = measured(scenario, found) | saturation(scenario, tally)
+        found = only_measured(scenario, found) | saturation(scenario, tally)
         return {name: float(value) for name, value in found.items() if np.isfinite(value)}
 
     def assemble(
@@ -247,7 +247,9 @@ class RopeModel:
     def _balance(self, samples: int, named: dict[str, np.ndarray]) -> dict[str, float]:
         """As ``closed``, with the energy."""
         works = np.stack([named[name] for name in POWERS], axis=1)
-        named["energy"] = energy(self._rope, self._record.log.nodes[:samples], named["body_velocity"], named["length"])
+        named["energy"] = rope_energy(
+            self._rope, self._record.log.nodes[:samples], named["body_velocity"], named["length"]
+        )
         return closed(named, works)
 
 
@@ -267,7 +269,7 @@ def shares_of(settings: CascadeSettings, towards: np.ndarray) -> np.ndarray:
     return towards @ np.linalg.pinv(together, rcond=1e-9)
 
 
-def axial_period(rope: Rope, length: float) -> float:
+def axial_period_of(rope: RopeConstants, length: float) -> float:
     """Longest natural period of cable and body up and down, s, by Rayleigh's third of the cable."""
     mass = float(rope.inertia[2]) + rope.density * length / 3.0
     return 2.0 * pi * sqrt(mass * length / rope.stiffness)

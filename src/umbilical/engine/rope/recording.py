@@ -13,7 +13,7 @@ from umbilical.engine.rope.world import RopeNow, RopeWorld
 from umbilical.frames import Frame, integer, real
 from umbilical.plant.layout import integrate, probe, to_nodal
 from umbilical.plant.motors import MotorState
-from umbilical.plant.rope.records import POWERS, Rope
+from umbilical.plant.rope.records import POWERS, RopeConstants
 from umbilical.quantities import CHANNELS
 from umbilical.relations.formulas import motor_constants
 from umbilical.scenario.hardware import Motor
@@ -221,7 +221,7 @@ def store_rope(log: RopeLog, row: int, tally: RopeTally, world: RopeWorld, kappa
             log.nodes[row, j, k] = state.rope.now[j, k]
 
 
-def rope_channels(log: RopeLog, samples: int, driven: bool, rope: Rope) -> dict[str, np.ndarray]:
+def rope_channels(log: RopeLog, samples: int, driven: bool, rope: RopeConstants) -> dict[str, np.ndarray]:
     """The first ``samples`` stored samples by name, in the order of ``CHANNELS``."""
     kept: list[Any] = [log.now["outside"], log.now, log.outer]
     if driven:
@@ -238,7 +238,7 @@ def rope_channels(log: RopeLog, samples: int, driven: bool, rope: Rope) -> dict[
     return {name: named[name] for name in CHANNELS if name in named}
 
 
-def along_rope(nodes: np.ndarray, named: dict[str, np.ndarray], rope: Rope) -> dict[str, np.ndarray]:
+def along_rope(nodes: np.ndarray, named: dict[str, np.ndarray], rope: RopeConstants) -> dict[str, np.ndarray]:
     """Place, tension and what the string has of the direction x, along the cable, (samples, 4 n + 1)."""
     samples, n = nodes.shape[0], nodes.shape[2] // 6
     parts = np.moveaxis(nodes.reshape(samples, 5, 6, n), 2, 1)

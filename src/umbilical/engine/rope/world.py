@@ -9,14 +9,14 @@ import numpy as np
 
 from umbilical.compile import glue, kernel
 from umbilical.control.contract import Decision, MotorDecision, Readings, TipReadings
-from umbilical.engine.sensing import Sensors, SensorState, add_errors
+from umbilical.engine.sensing import SensorErrors, SensorState, add_errors
 from umbilical.frames import Frame, part, real, vector
 from umbilical.plant.exogenous import END, MIDDLE, START, Exogenous
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor
 from umbilical.plant.rope.operators import LIFT, D
 from umbilical.plant.rope.operators import W as WEIGHTS
 from umbilical.plant.rope.outside import RopeInputs
-from umbilical.plant.rope.records import Rope, RopeOutside, RopeState
+from umbilical.plant.rope.records import RopeConstants, RopeOutside, RopeState
 from umbilical.plant.rope.step import advance_rope
 from umbilical.plant.rope.water import stir
 from umbilical.relations.formulas import signed_square
@@ -25,7 +25,7 @@ from umbilical.relations.formulas import signed_square
 class RopePlant(NamedTuple):
     """Constants of everything that moves; ``directions`` of the motors' thrusts, unit vectors, shape (motors, 2)."""
 
-    rope: Rope
+    rope: RopeConstants
     motors: MotorParameters
     directions: np.ndarray
     ideal: bool
@@ -74,7 +74,7 @@ class RopePlantState(NamedTuple):
 class Side(NamedTuple):
     """Sensors and decisions of one horizontal direction."""
 
-    sensors: Sensors
+    sensors: SensorErrors
     memory: SensorState
     readings: Readings
     decision: Decision
@@ -109,7 +109,7 @@ def take_plane(state: RopePlantState, inputs: RopeInputs, i: int, column: int) -
 
 
 @glue
-def enter_step(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int) -> None:
+def enter_rope_step(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int) -> None:
     """The outside world just after the start of step i, where something jumped."""
     take_plane(state, inputs, i, START)
     if not plant.ideal:
@@ -130,7 +130,9 @@ def push(state: RopePlantState, inputs: RopeInputs, i: int) -> None:
 
 
 @glue
-def advance(plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int, decision: MotorDecision) -> None:
+def advance_rope_plant(
+    plant: RopePlant, state: RopePlantState, inputs: RopeInputs, i: int, decision: MotorDecision
+) -> None:
     """Step i: the motors under their held voltages, then the rope under their thrust."""
     dt, now = inputs.plane.dt[i], state.now[0]
     for k in range(3):
@@ -177,7 +179,7 @@ def end_direction(rope: RopeState, out: TipReadings, now: RopeNow, i: int) -> No
 
 
 @kernel
-def scan_tension(plant: Rope, rope: RopeState, now: RopeNow) -> None:
+def scan_tension(plant: RopeConstants, rope: RopeState, now: RopeNow) -> None:
     """Tension at both ends, the smallest along the cable, and the length that nothing pulls."""
     n, ends, slack, lowest = rope.stretch.shape[1], rope.ends[0], 0.0, np.inf
     for j in range(5):
@@ -212,7 +214,7 @@ def look(plant: RopePlant, state: RopePlantState) -> None:
 
 
 @glue
-def sense(world: RopeWorld, noise: np.ndarray, across: np.ndarray, row: int) -> None:
+def sense_rope(world: RopeWorld, noise: np.ndarray, across: np.ndarray, row: int) -> None:
     """One sample of all sensors of both directions."""
     state, along, other = world.state, world.along, world.across
     look(world.plant, state)

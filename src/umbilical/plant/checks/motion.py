@@ -33,8 +33,7 @@ from umbilical.relations.water import in_water
 from umbilical.scenario.environment import Environment, GaussianShape, InitialShape, TableShape
 from umbilical.scenario.findings import Finding, amount
 from umbilical.scenario.hardware import Cable, Payload
-from umbilical.scenario.signals import Bell, Pulse, Sine, Step, Table
-from umbilical.scenario.signals import Waves as WaveTerm
+from umbilical.scenario.signals import Bell, Pulse, Sine, Step, Table, Waves
 from umbilical.scenario.winch import Cosine, Winch
 
 _SHORTEST, _LONGEST = 1.0, 2e4
@@ -98,7 +97,7 @@ def _sampled_top(
 def _samples(environment: Environment | None, duration: float) -> int:
     """Even samples of a run: enough for each turn of the heave."""
     terms = heaving(environment) if environment else ()
-    regular = [max(term.frequencies) for term in terms if isinstance(term, WaveTerm)]
+    regular = [max(term.frequencies) for term in terms if isinstance(term, Waves)]
     fastest = max([term.frequency for term in terms if isinstance(term, Sine)] + regular, default=0.0)
     turns = fastest * duration / (2.0 * np.pi)
     return int(max(_EVEN_SAMPLES, min(_SAMPLES_PER_TURN * turns, _MOST_SAMPLES)))
@@ -176,7 +175,7 @@ def sunk(motion: Top, cable: Cable, payload: Payload, environment: Environment) 
     return stretched(carried, motion.elastic_tension, motion.elastic_gradient)
 
 
-class Waves(NamedTuple):
+class CableWaves(NamedTuple):
     """Waves at each instant: slowest and fastest speed on the cable, and of what carries them at body and vessel."""
 
     slowest: np.ndarray
@@ -185,7 +184,7 @@ class Waves(NamedTuple):
     at_vessel: np.ndarray
 
 
-def wave_terms(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> Waves:
+def wave_terms(motion: Top, cable: Cable, payload: Payload, environment: Environment) -> CableWaves:
     """``sqrt(Tt/M)`` and the two ends of the transport tau = vb - v sigma, m/s, by the motion of the top end."""
     added, density = in_water(cable, payload, environment).added, cable.line_density
     inertia = density + added
@@ -193,7 +192,7 @@ def wave_terms(motion: Top, cable: Cable, payload: Payload, environment: Environ
     pulls = across(hung, density * added / inertia, motion.sink_speed)
     length, slip = _possible(motion.length), added * motion.sink_speed / inertia
     slowest, fastest = smallest_tension(length, net, pulls), largest_tension(length, net, pulls)
-    return Waves(
+    return CableWaves(
         np.sqrt(np.maximum(slowest, 0.0) / inertia),
         np.sqrt(np.maximum(fastest, 0.0) / inertia),
         -slip,

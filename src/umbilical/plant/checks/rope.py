@@ -65,7 +65,7 @@ def rope_stretch(scenario: Scenario) -> Iterator[Finding]:
         yield Notice("cable.axial_stiffness", f"{given:.4g} N: the static stretch reaches {load / given:.2%}")
 
 
-def weights(scenario: Scenario) -> Iterator[Finding]:
+def rope_weights(scenario: Scenario) -> Iterator[Finding]:
     """Something pulls all along the cable at the start, and what is said of weights agrees."""
     end, top = weights_of(scenario)
     if not min(end, top) > 0.0:
@@ -98,7 +98,7 @@ def thrusters(scenario: Scenario) -> Iterator[Finding]:
 
 def rope_start(scenario: Scenario) -> Iterator[Finding]:
     """There is a shape at rest to start from."""
-    if any(isinstance(found, Problem) for check in (weights, rope_stretch, signals) for found in check(scenario)):
+    if any(isinstance(found, Problem) for check in (rope_weights, rope_stretch, signals) for found in check(scenario)):
         return
     try:
         at_rest(scenario, rope_of(scenario), still_water(scenario))
@@ -152,5 +152,5 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
         )
 
 
-CHECKS = (signals, rope_stretch, weights, thrusters, rope_start, _lean, steps)
+CHECKS = (signals, rope_stretch, rope_weights, thrusters, rope_start, _lean, steps)
 """What only a scenario with ``model = "rope"`` is asked."""

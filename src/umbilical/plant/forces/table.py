@@ -23,7 +23,7 @@ import numpy as np
 from umbilical.compile import glue, kernel
 from umbilical.frames import Frame, integer, real
 from umbilical.plant import current as profile_of_current
-from umbilical.plant.cable import Cable, Ends, Moment
+from umbilical.plant.cable import CableConstants, Ends, Moment
 from umbilical.plant.current import Flow, Profile, make_profile
 from umbilical.plant.exogenous import Exogenous, profiles
 from umbilical.plant.forces import (
@@ -48,8 +48,7 @@ from umbilical.plant.orbital import Levels, levels_of, look_at_waves
 from umbilical.plant.seaway import heaving
 from umbilical.relations.tension import tension as tension_at
 from umbilical.scenario.environment import Environment
-from umbilical.scenario.hardware import Cable as CableRecord
-from umbilical.scenario.hardware import Payload
+from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.scenario import Scenario
 
 FORCES = (
@@ -179,7 +178,9 @@ def make_along(elements: int) -> Along:
 
 
 @glue
-def flow_past(forces: Forces, cable: Cable, ends: Ends, water: Flow, outside: Exogenous, orbits: np.ndarray) -> None:
+def flow_past(
+    forces: Forces, cable: CableConstants, ends: Ends, water: Flow, outside: Exogenous, orbits: np.ndarray
+) -> None:
     """The water at the nodes, as deep as they are now: worked out where depth, current or waves have changed it."""
     length, heave, factor, change = outside.length, outside.heave, outside.current_factor, outside.current_rate
     waves, flows = forces.waves.deepest > 0.0, forces.current.starts.size > 0
@@ -200,7 +201,7 @@ def flow_past(forces: Forces, cable: Cable, ends: Ends, water: Flow, outside: Ex
 @glue
 def along_cable(
     forces: Forces,
-    cable: Cable,
+    cable: CableConstants,
     x: np.ndarray,
     rate: np.ndarray,
     loads: np.ndarray,
@@ -236,7 +237,7 @@ def on_payload(forces: Forces, ends: Ends, water: Flow, wet: bool) -> float:
 @glue
 def book_along(
     forces: Forces,
-    cable: Cable,
+    cable: CableConstants,
     x: np.ndarray,
     power: Along,
     work: Along,
@@ -278,7 +279,7 @@ def book_along(
 @glue
 def book_at_ends(
     forces: Forces,
-    cable: Cable,
+    cable: CableConstants,
     ends: Ends,
     works: EndWorks,
     half: float,
@@ -302,7 +303,7 @@ def book_at_ends(
 @glue
 def book_water_at_payload(
     forces: Forces,
-    cable: Cable,
+    cable: CableConstants,
     ends: Ends,
     works: EndWorks,
     half: float,
@@ -324,7 +325,7 @@ def book_water_at_payload(
 
 
 @kernel
-def add_up(work: Along, ends: EndWorks, out: AlongWorks) -> None:
+def sum_works(work: Along, ends: EndWorks, out: AlongWorks) -> None:
     """Sum the works along the cable from vessel to ROV; the current's with what it gives to the ROV."""
     out.work_cable_damping = total(work.cable_damping)
     out.work_cable_load = total(work.cable_load)
@@ -343,7 +344,7 @@ def total(values: np.ndarray) -> float:
     return found
 
 
-def decays(cable: CableRecord, payload: Payload, environment: Environment) -> Iterator[Decay]:
+def decays(cable: Cable, payload: Payload, environment: Environment) -> Iterator[Decay]:
     """What takes velocity, and how fast at most."""
     for force in FORCES:
         if found := force.decay(cable=cable, payload=payload, environment=environment):

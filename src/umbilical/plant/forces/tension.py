@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.compile import fma, glue, row_kernel
-from umbilical.plant.cable import Cable, Moment
+from umbilical.plant.cable import CableConstants, Moment
 from umbilical.plant.elements import W0, W1, W2
 from umbilical.plant.exogenous import Exogenous
 from umbilical.plant.forces.force import Force
@@ -40,7 +40,7 @@ def book(
 
 @glue
 def book_jerk(
-    cable: Cable, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net: float,
+    cable: CableConstants, x: np.ndarray, power: np.ndarray, work: np.ndarray, half: float, length: float, net: float,
     factor: float,
 ) -> None:  # fmt: skip
     """``factor`` times int (m + rho (l - x)) (g - a) p^2 dx: the part of T p^2 that follows the winch's acceleration.
@@ -53,7 +53,7 @@ def book_jerk(
 
 
 @glue
-def sliding(cable: Cable, moment: Moment, outside: Exogenous) -> tuple[float, float]:
+def sliding(cable: CableConstants, moment: Moment, outside: Exogenous) -> tuple[float, float]:
     """``Tt_t + vb T_x`` beside the jerk's part, at the ROV and above it, N/s: drag along, added mass, stretch."""
     foot, slope = sliding_rates(
         moment.hung, cable.axial_drag, cable.coupling, moment.slip, moment.net, outside.sink_speed,

@@ -13,7 +13,7 @@ from umbilical.plant.forces.table import decays
 from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.rope.model import BodyData, CableData, make_rope
 from umbilical.plant.rope.outside import CALM, forces_on_the_body, vessel_in_space
-from umbilical.plant.rope.records import Rope, RopeState, Water, make_state
+from umbilical.plant.rope.records import RopeConstants, RopeState, WaterColumn, make_rope_state
 from umbilical.plant.rope.statics import Shape, hanging_shape, node_positions, put_shape, settle
 from umbilical.plant.rope.step import SAFE, axial_speed, largest_step, look_at_rope
 from umbilical.plant.signals import evaluate
@@ -21,7 +21,7 @@ from umbilical.plant.top import top_at
 from umbilical.relations.tension import hanging_of, largest_tension, net_gravity, tension, tension_gain
 from umbilical.relations.water import in_water
 from umbilical.scenario.environment import EquilibriumShape, Straight
-from umbilical.scenario.rope import Rope as RopeSection
+from umbilical.scenario.rope import Rope
 from umbilical.scenario.scenario import Scenario
 
 ASSUMED_STIFFNESS = 1e4
@@ -29,9 +29,9 @@ ASSUMED_STIFFNESS = 1e4
 _INSTANTS = 2001
 
 
-def section(scenario: Scenario) -> RopeSection:
+def section(scenario: Scenario) -> Rope:
     """What the scenario says of the rope, defaults where it says nothing."""
-    return scenario.rope or RopeSection()
+    return scenario.rope or Rope()
 
 
 def stiffness(scenario: Scenario) -> float:
@@ -74,7 +74,7 @@ def body_data(scenario: Scenario) -> BodyData:
     )
 
 
-def rope_of(scenario: Scenario) -> Rope:
+def rope_of(scenario: Scenario) -> RopeConstants:
     """Constants for the kernels."""
     rope = section(scenario)
     sigma = node_positions(rope.elements)
@@ -96,7 +96,7 @@ def rope_step(scenario: Scenario) -> float:
     return min(crossing, _body_step(rope), _damped_step(scenario))
 
 
-def _body_step(rope: Rope) -> float:
+def _body_step(rope: RopeConstants) -> float:
     """The body loses its speed to the waves it sends up the cable at the rate Z/(m + A)."""
     return SAFE * float(rope.inertia.min()) / (rope.density * axial_speed(rope))
 
@@ -113,7 +113,7 @@ def weights_of(scenario: Scenario) -> tuple[float, float]:
     return weight, weight + cable_data(scenario).weight * float(np.max(_lengths(scenario)))
 
 
-def at_rest(scenario: Scenario, rope: Rope, water: Water) -> tuple[RopeState, Shape]:
+def at_rest(scenario: Scenario, rope: RopeConstants, water: WaterColumn) -> tuple[RopeState, Shape]:
     """The rope at rest under the current and the loads as they are at the start, and the shape it was found in.
 
     Without ``initial.shape = "equilibrium"`` in still water, with no loads.
@@ -121,7 +121,7 @@ def at_rest(scenario: Scenario, rope: Rope, water: Water) -> tuple[RopeState, Sh
     Raises:
         ValueError: there is no such shape.
     """
-    state, sigma = make_state(section(scenario).elements), node_positions(section(scenario).elements)
+    state, sigma = make_rope_state(section(scenario).elements), node_positions(section(scenario).elements)
     start, outside = top_at(scenario.winch, 0.0), state.outside[0]
     outside.length, outside.payout_speed = float(start.length), float(start.speed)
     place, speed = (part[0] for part in vessel_in_space(scenario, np.zeros(1)))
@@ -144,13 +144,13 @@ def _load_at_start(scenario: Scenario, sigma: float) -> float:
                for load in scenario.environment.cable_load)  # fmt: skip
 
 
-def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
+def initial_rope(scenario: Scenario, rope: RopeConstants, water: WaterColumn) -> RopeState:
     """The rope at the start; a shape of the string's is laid over the cable as it hangs in still water."""
     state, _ = at_rest(scenario, rope, water)
     outside = state.outside[0]
     if not isinstance(scenario.initial, Straight | EquilibriumShape):
         sigma = node_positions(state.stretch.shape[1])
-        lean(state, slope_of_shape(scenario, sigma) / outside.length)
+        add_slopes(state, slope_of_shape(scenario, sigma) / outside.length)
     elif not outside.payout_speed and not outside.vessel_speed.any():
         if isinstance(scenario.initial, Straight):
             settle(rope, state, np.zeros(0), CALM)
@@ -162,7 +162,7 @@ def initial_rope(scenario: Scenario, rope: Rope, water: Water) -> RopeState:
     return state
 
 
-def lean(state: RopeState, slopes: np.ndarray) -> None:
+def add_slopes(state: RopeState, slopes: np.ndarray) -> None:
     """Add slopes y_x in the direction x, below 1, shape (5, n), and keep the stretch; x counts unstretched cable."""
     n, length = state.stretch.shape[1], float(state.outside[0].length)
     parts = [state.now[:, i * n : (i + 1) * n] / length for i in range(3)]

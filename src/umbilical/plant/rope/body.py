@@ -10,11 +10,21 @@ component by component.
 from __future__ import annotations
 
 from umbilical.compile import kernel
-from umbilical.plant.rope.records import ADDED, BODY_DRAG, FORCE, FRICTION, THRUST, WEIGHT, Rope, RopeOutside, RopeState
+from umbilical.plant.rope.records import (
+    ADDED,
+    BODY_DRAG,
+    FORCE,
+    FRICTION,
+    THRUST,
+    WEIGHT,
+    RopeConstants,
+    RopeOutside,
+    RopeState,
+)
 
 
 @kernel
-def accelerate_body(rope: Rope, state: RopeState, outside: RopeOutside, booked: bool) -> None:
+def accelerate_body(rope: RopeConstants, state: RopeState, outside: RopeOutside, booked: bool) -> None:
     """V' into the third row of ``body``."""
     drag, thrust, force, water, rubbed = 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(3):

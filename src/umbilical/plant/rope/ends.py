@@ -14,14 +14,14 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.rope.fluxes import impedance_across
-from umbilical.plant.rope.records import GRID, VESSEL, Rope, RopeEnds, RopeOutside
+from umbilical.plant.rope.records import GRID, VESSEL, RopeConstants, RopeEnds, RopeOutside
 
 PASSES = 2
 """Of the fixed point between entering stretch and tension, whose error falls by v/c in each."""
 
 
 @kernel
-def enter_stretch(rope: Rope, ends: RopeEnds, tx: float, ty: float, tz: float) -> None:
+def enter_stretch(rope: RopeConstants, ends: RopeEnds, tx: float, ty: float, tz: float) -> None:
     """p* of the cable that is paid out, from G*: along the tension if it pulls, else unstretched along the cable."""
     gx, gy, gz = ends.top_pull[0], ends.top_pull[1], ends.top_pull[2]
     if gx * tx + gy * ty + gz * tz > 0.0:
@@ -33,7 +33,7 @@ def enter_stretch(rope: Rope, ends: RopeEnds, tx: float, ty: float, tz: float) -
 
 @kernel
 def meet_vessel(
-    rope: Rope, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray,
+    rope: RopeConstants, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray,
     outside: RopeOutside, ends: RopeEnds,
 ) -> None:  # fmt: skip
     """W*, G* and p* at the sheave."""
@@ -69,7 +69,7 @@ def meet_vessel(
 
 @kernel
 def meet_body(
-    rope: Rope, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray,
+    rope: RopeConstants, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray,
     body: np.ndarray, ends: RopeEnds, length: float,
 ) -> None:  # fmt: skip
     """W* and G* at the body; ``body`` is its velocity, shape (3,)."""

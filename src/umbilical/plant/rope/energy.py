@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from umbilical.plant.elements import WEIGHTS
-from umbilical.plant.rope.records import Rope
+from umbilical.plant.rope.records import RopeConstants
 
 
-def energy(rope: Rope, now: np.ndarray, body: np.ndarray, length: np.ndarray) -> np.ndarray:
+def rope_energy(rope: RopeConstants, now: np.ndarray, body: np.ndarray, length: np.ndarray) -> np.ndarray:
     """``int (rho |W|^2 + EA (|p| - 1)_+^2)/2 dx + V (m + A) V/2``.
 
     Args:

@@ -15,21 +15,23 @@ from math import sqrt
 import numpy as np
 
 from umbilical.compile import kernel
-from umbilical.plant.rope.records import GRID, Rope
+from umbilical.plant.rope.records import GRID, RopeConstants
 
 LEAST_TENSION = 1.0
 """N; the impedance across the cable is that of at least this tension, so that it does not vanish in slack."""
 
 
 @kernel
-def impedance_across(rope: Rope, stretch: float) -> float:
+def impedance_across(rope: RopeConstants, stretch: float) -> float:
     """Z_n, kg/s."""
     tension = max(rope.stiffness * (stretch - 1.0), LEAST_TENSION)
     return sqrt((rope.density + rope.added) * tension / stretch)
 
 
 @kernel
-def meet(rope: Rope, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray) -> None:
+def meet_elements(
+    rope: RopeConstants, x: np.ndarray, pull: np.ndarray, stretch: np.ndarray, star: np.ndarray, power: np.ndarray
+) -> None:
     """W and N t at the interfaces inside the cable into ``star``; the power they take is added to the grid's."""
     n = stretch.shape[1]
     along = sqrt(rope.stiffness * rope.density)

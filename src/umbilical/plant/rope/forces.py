@@ -17,11 +17,11 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.rope.operators import W as WEIGHTS
-from umbilical.plant.rope.records import ADDED, DAMPING, DRAG, LOAD, WEIGHT, Rope, RopeState
+from umbilical.plant.rope.records import ADDED, DAMPING, DRAG, LOAD, WEIGHT, RopeConstants, RopeState
 
 
 @kernel
-def accelerate_dry(rope: Rope, state: RopeState, length: float) -> None:
+def accelerate_dry(rope: RopeConstants, state: RopeState, length: float) -> None:
     """DW/Dt at the nodes into the second half of ``rate``, without water."""
     n = state.stretch.shape[1]
     per, loss = 1.0 / (rope.density * length), rope.damping / rope.density
@@ -37,7 +37,7 @@ def accelerate_dry(rope: Rope, state: RopeState, length: float) -> None:
 
 
 @kernel
-def accelerate_wet(rope: Rope, state: RopeState, length: float) -> None:
+def accelerate_wet(rope: RopeConstants, state: RopeState, length: float) -> None:
     """DW/Dt at the nodes into the second half of ``rate``, in water."""
     n = state.stretch.shape[1]
     scale, added, displaced = 1.0 / length, rope.added, rope.displaced
@@ -73,7 +73,7 @@ def accelerate_wet(rope: Rope, state: RopeState, length: float) -> None:
 
 
 @kernel
-def add_loads(rope: Rope, state: RopeState, loads: np.ndarray, length: float) -> None:
+def add_loads(rope: RopeConstants, state: RopeState, loads: np.ndarray, length: float) -> None:
     """Loads along the cable, N/m, in the direction of x; what of them is across the cable moves the added mass, too."""
     n = state.stretch.shape[1]
     across = 1.0 / (rope.density + rope.added)
@@ -93,7 +93,7 @@ def add_loads(rope: Rope, state: RopeState, loads: np.ndarray, length: float) ->
 
 
 @kernel
-def book_cable(rope: Rope, state: RopeState, loads: np.ndarray, length: float) -> None:
+def book_cable(rope: RopeConstants, state: RopeState, loads: np.ndarray, length: float) -> None:
     """Powers of the forces on the cable; what the added mass takes is what is missing to rho a."""
     n = state.stretch.shape[1]
     scale, per = 1.0 / length, length / (2.0 * n)

@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 
 from umbilical.plant.layout import integrate, to_nodal
-from umbilical.plant.rope.energy import energy
+from umbilical.plant.rope.energy import rope_energy
 from umbilical.plant.rope.records import (
     POWERS,
     STAGES,
-    Rope,
+    RopeConstants,
     RopeOutside,
-    Water,
+    WaterColumn,
     make_above,
-    make_state,
+    make_rope_state,
     make_water,
     vector_of,
 )
@@ -79,7 +79,7 @@ class BodyData:
 
 
 @dataclass(frozen=True)
-class Current:
+class SteadyCurrent:
     """Steady water: velocities, m/s, shape (levels, 3), at heights, m, decreasing from the surface."""
 
     heights: tuple[float, ...] = (0.0,)
@@ -106,14 +106,14 @@ def fixed(length: float) -> Motion:
 
 def make_rope(
     cable: CableData, body: BodyData, elements: int, *, profiles: np.ndarray | None = None, moving: bool = False
-) -> Rope:
+) -> RopeConstants:
     """Constants for the kernels; ``profiles`` of loads along the cable of shape (loads, 5, n)."""
     above, faces = make_above(elements)
     line = line_in_water(
         cable.water_density, cable.diameter, cable.normal_drag, cable.tangential_drag, cable.added_mass,
         cable.strumming,
     )  # fmt: skip
-    rope = Rope(
+    rope = RopeConstants(
         stiffness=cable.stiffness,
         density=cable.density,
         weight=cable.weight,
@@ -154,16 +154,16 @@ class RopeModel:
     """
 
     def __init__(
-        self, cable: CableData, body: BodyData, motion: Motion, current: Current | None = None, *, elements: int = 10,
-        force: Vector = 0.0, step: float | None = None, booked: bool = False, settled: bool = True,
+        self, cable: CableData, body: BodyData, motion: Motion, current: SteadyCurrent | None = None, *,
+        elements: int = 10, force: Vector = 0.0, step: float | None = None, booked: bool = False, settled: bool = True,
     ) -> None:  # fmt: skip
         self.motion, self.elements, self.time, self.booked = motion, elements, 0.0, booked
-        current = current or Current()
+        current = current or SteadyCurrent()
         moving = bool(np.any(current.velocities))
         self.rope = make_rope(cable, body, elements, moving=moving or bool(np.any(body.drag) or np.any(body.damping)))
         self.water = water_of(current)
         self.largest_step = step
-        self.state = make_state(elements)
+        self.state = make_rope_state(elements)
         self._force, self._thrust = vector_of(force), np.zeros(3)
         self.state.outside[0] = self._outside(np.zeros(1), 1)[0, 0]
         self._hang(settled)
@@ -253,7 +253,7 @@ class RopeModel:
     @property
     def energy(self) -> float:
         """Kinetic and elastic energy, J."""
-        return float(energy(self.rope, self.state.now[None], self.state.body[:1], np.array([self.length]))[0])
+        return float(rope_energy(self.rope, self.state.now[None], self.state.body[:1], np.array([self.length]))[0])
 
     @property
     def works(self) -> dict[str, float]:
@@ -273,7 +273,7 @@ class RopeModel:
         return np.moveaxis(columns.reshape(5, 3, n), 1, 0)
 
 
-def water_of(current: Current) -> Water:
+def water_of(current: SteadyCurrent) -> WaterColumn:
     """Steady water for the kernels."""
     flow = np.zeros((STAGES, len(current.heights), 6))
     flow[:, :, :3] = np.array(current.velocities)

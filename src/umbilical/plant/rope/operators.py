@@ -18,7 +18,7 @@ E0, E1, O0, O1, O2 = EVEN[0], EVEN[1], ODD[0], ODD[1], ODD[2]
 
 
 @kernel
-def differentiate(f: np.ndarray, out: np.ndarray, at: int, elements: int) -> None:
+def differentiate_columns(f: np.ndarray, out: np.ndarray, at: int, elements: int) -> None:
     """Derivative of all columns of ``f`` inside the elements into the columns of ``out`` from ``at`` on."""
     columns = f.shape[1]
     per_sigma = 2.0 * elements
@@ -52,7 +52,7 @@ def lift(f: np.ndarray, star: np.ndarray, row: int, out: np.ndarray, at: int, el
 
 
 @kernel
-def add_up(x: np.ndarray, joints: np.ndarray, start: np.ndarray, elements: int) -> None:
+def add_up_positions(x: np.ndarray, joints: np.ndarray, start: np.ndarray, elements: int) -> None:
     """r where elements meet, from the vessel's ``start`` and l r_x in the first 3 n columns of ``x``."""
     n = elements
     half = 0.5 / n

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from umbilical.plant import signals
 from umbilical.plant.exogenous import END, MIDDLE, START, Inputs, Outside, Steps, current_at
 from umbilical.plant.orbital import levels_of
-from umbilical.plant.rope.records import STAGES, RopeOutside, Water, make_water
+from umbilical.plant.rope.records import STAGES, RopeOutside, WaterColumn, make_water
 from umbilical.plant.seaway import sheave
 from umbilical.plant.signals import Array, Side
 from umbilical.plant.top import top_at, vessel_at
@@ -34,7 +34,7 @@ class RopeInputs(NamedTuple):
     plane: Inputs
     world: RopeOutside
     loads: Array
-    water: Water
+    water: WaterColumn
 
 
 def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Any, Any]:
@@ -50,7 +50,7 @@ def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> t
     return place, speed
 
 
-def still_water(scenario: Scenario) -> Water:
+def still_water(scenario: Scenario) -> WaterColumn:
     """The water for the kernels as it is at the start: the current, and the waves before they begin."""
     water, waves = scenario.environment.water, levels_of(scenario.environment)
     if water is None or water.current is None:

@@ -15,16 +15,16 @@ import numpy as np
 from umbilical.compile import entry_kernel, glue, kernel
 from umbilical.plant.rope.body import accelerate_body
 from umbilical.plant.rope.ends import meet_body, meet_vessel
-from umbilical.plant.rope.fluxes import meet
+from umbilical.plant.rope.fluxes import meet_elements
 from umbilical.plant.rope.forces import accelerate_dry, accelerate_wet, add_loads, book_cable
-from umbilical.plant.rope.operators import LIFT, add_up, differentiate, heights, lift
-from umbilical.plant.rope.records import GRID, Rope, RopeOutside, RopeState, Water
+from umbilical.plant.rope.operators import LIFT, add_up_positions, differentiate_columns, heights, lift
+from umbilical.plant.rope.records import GRID, RopeConstants, RopeOutside, RopeState, WaterColumn
 from umbilical.plant.rope.tension import pull_of, stretch_of
 from umbilical.plant.rope.water import flow_along, flow_at
 
 
 @kernel
-def carry(rope: Rope, state: RopeState, speed: float, length: float) -> None:
+def carry(rope: RopeConstants, state: RopeState, speed: float, length: float) -> None:
     """From DW/Dt to W_t, and Q_t, with the transport of the material through the grid."""
     n = state.stretch.shape[1]
     for j in range(5):
@@ -39,7 +39,7 @@ def carry(rope: Rope, state: RopeState, speed: float, length: float) -> None:
 
 
 @kernel
-def carry_across(rope: Rope, state: RopeState, speed: float, length: float) -> None:
+def carry_across(rope: RopeConstants, state: RopeState, speed: float, length: float) -> None:
     """What the transport takes from the side it comes from, where elements meet; and what that costs."""
     n = state.stretch.shape[1]
     lost = 0.0
@@ -62,7 +62,7 @@ def carry_across(rope: Rope, state: RopeState, speed: float, length: float) -> N
 
 
 @kernel
-def carry_in(rope: Rope, state: RopeState, speed: float, length: float) -> None:
+def carry_in(rope: RopeConstants, state: RopeState, speed: float, length: float) -> None:
     """What is paid out enters at the sheave with its stretch and velocity."""
     n = state.stretch.shape[1]
     ends = state.ends[0]
@@ -82,10 +82,10 @@ def carry_in(rope: Rope, state: RopeState, speed: float, length: float) -> None:
 
 
 @glue
-def look_at_water(state: RopeState, water: Water, stage: int, start: np.ndarray) -> None:
+def look_at_water(state: RopeState, water: WaterColumn, stage: int, start: np.ndarray) -> None:
     """The water at the nodes and at the body."""
     n = state.stretch.shape[1]
-    add_up(state.now, state.joints, start, n)
+    add_up_positions(state.now, state.joints, start, n)
     heights(state.now, state.joints, state.height, n)
     flow_along(water, stage, state.height, state.flow)
     flow_at(water, stage, state.joints[2, n], state.body_flow, 0, 1)
@@ -95,22 +95,28 @@ def look_at_water(state: RopeState, water: Water, stage: int, start: np.ndarray)
 def find_gradients(state: RopeState) -> None:
     """d/dsigma of Q and W inside the elements, and of N t with what holds where they meet."""
     n = state.stretch.shape[1]
-    differentiate(state.now, state.gradient, 0, n)
-    differentiate(state.pull, state.gradient, 6 * n, n)
+    differentiate_columns(state.now, state.gradient, 0, n)
+    differentiate_columns(state.pull, state.gradient, 6 * n, n)
     for i in range(3):
         lift(state.pull[:, i * n : (i + 1) * n], state.star, 3 + i, state.gradient, (6 + i) * n, n)
 
 
 @entry_kernel
-def evaluate(
-    rope: Rope, state: RopeState, outside: RopeOutside, loads: np.ndarray, water: Water, stage: int, booked: bool
+def evaluate_rope(
+    rope: RopeConstants,
+    state: RopeState,
+    outside: RopeOutside,
+    loads: np.ndarray,
+    water: WaterColumn,
+    stage: int,
+    booked: bool,
 ) -> None:
     """All rates at the present state, and the powers."""
     length, speed, n = outside.length, outside.payout_speed, state.stretch.shape[1]
     state.power[GRID] = 0.0
     stretch_of(state.now, state.stretch, length)
     pull_of(rope, state.now, state.stretch, state.pull, length)
-    meet(rope, state.now, state.pull, state.stretch, state.star, state.power)
+    meet_elements(rope, state.now, state.pull, state.stretch, state.star, state.power)
     meet_vessel(rope, state.now, state.pull, state.stretch, state.star, state.power, outside, state.ends[0])
     meet_body(rope, state.now, state.pull, state.stretch, state.star, state.power, state.body[0], state.ends[0], length)
     find_gradients(state)

@@ -25,7 +25,7 @@ POWERS = (
 THRUST, FORCE, FRICTION, VESSEL, DAMPING, LOAD, WEIGHT, DRAG, BODY_DRAG, ADDED, GRID = range(11)
 
 
-class Rope(NamedTuple):
+class RopeConstants(NamedTuple):
     """Constants of cable and body, SI units; vectors have the shape (3,).
 
     Attributes:
@@ -89,7 +89,7 @@ class RopeEnds(Frame):
     end_pull = vector(3)
 
 
-class Water(NamedTuple):
+class WaterColumn(NamedTuple):
     """Velocity and acceleration of the water at some heights, at the stages of one step, and the waves' on top.
 
     Attributes:
@@ -107,9 +107,9 @@ class Water(NamedTuple):
     orbit: np.ndarray
 
 
-def make_water(heights: np.ndarray, flow: np.ndarray, waves: Levels = NONE) -> Water:
+def make_water(heights: np.ndarray, flow: np.ndarray, waves: Levels = NONE) -> WaterColumn:
     """Water whose waves have not begun."""
-    return Water(heights, flow, flow[0, :, :AXES].copy(), waves, np.zeros((STAGES, 2, AXES, LEVELS)))
+    return WaterColumn(heights, flow, flow[0, :, :AXES].copy(), waves, np.zeros((STAGES, 2, AXES, LEVELS)))
 
 
 class RopeState(NamedTuple):
@@ -152,7 +152,7 @@ class RopeState(NamedTuple):
     work: np.ndarray
 
 
-def make_state(elements: int) -> RopeState:
+def make_rope_state(elements: int) -> RopeState:
     """A rope of no length at rest."""
     n = elements
     return RopeState(

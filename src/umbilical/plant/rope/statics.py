@@ -18,8 +18,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.plant.elements import NODES
-from umbilical.plant.rope.rates import evaluate
-from umbilical.plant.rope.records import Rope, RopeState, Water
+from umbilical.plant.rope.rates import evaluate_rope
+from umbilical.plant.rope.records import RopeConstants, RopeState, WaterColumn
 from umbilical.plant.rope.step import look_at_rope
 
 _WIDEST = 1.5
@@ -34,14 +34,14 @@ class Shape(NamedTuple):
     force: np.ndarray
 
 
-def flow_in(water: Water, height: float) -> np.ndarray:
+def flow_in(water: WaterColumn, height: float) -> np.ndarray:
     """Velocity of the water at a height, m/s, shape (3,), at the first stage."""
     known = water.heights[::-1]
     return np.array([np.interp(height, known, water.flow[0, ::-1, i]) for i in range(3)])
 
 
 def hanging_shape(
-    rope: Rope, water: Water, length: float, vessel: np.ndarray, force: np.ndarray, sigma: np.ndarray, *,
+    rope: RopeConstants, water: WaterColumn, length: float, vessel: np.ndarray, force: np.ndarray, sigma: np.ndarray, *,
     load: Callable[[float], float] | None = None, held: np.ndarray | None = None,
 ) -> Shape:  # fmt: skip
     """Shape at rest under weight, current and a force on the body, N, shape (3,); at positions ``sigma``, any shape.
@@ -122,16 +122,18 @@ def unknowns(state: RopeState) -> np.ndarray:
     return np.concatenate([state.now.ravel(), state.body[0]])
 
 
-def rates_at(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, values: np.ndarray) -> np.ndarray:
+def rates_at(
+    rope: RopeConstants, state: RopeState, loads: np.ndarray, water: WaterColumn, values: np.ndarray
+) -> np.ndarray:
     """Rates of :func:`unknowns` at these values; the state keeps them."""
     size = state.now.size
     state.now[:] = values[:size].reshape(state.now.shape)
     state.body[0] = values[size:]
-    evaluate(rope, state, state.outside[0], loads, water, 0, True)
+    evaluate_rope(rope, state, state.outside[0], loads, water, 0, True)
     return np.concatenate([state.rate.ravel(), state.body[2]])
 
 
-def jacobian(rope: Rope, state: RopeState, loads: np.ndarray, water: Water) -> np.ndarray:
+def jacobian(rope: RopeConstants, state: RopeState, loads: np.ndarray, water: WaterColumn) -> np.ndarray:
     """Derivative of the rates after the unknowns by central differences, shape (30 n + 3, 30 n + 3)."""
     at = unknowns(state).copy()
     columns = np.zeros((at.size, at.size))
@@ -146,11 +148,11 @@ def jacobian(rope: Rope, state: RopeState, loads: np.ndarray, water: Water) -> n
     return columns
 
 
-def _load(rope: Rope) -> float:
+def _load(rope: RopeConstants) -> float:
     return abs(rope.body_weight) + rope.weight + 1.0
 
 
-def settle(rope: Rope, state: RopeState, loads: np.ndarray, water: Water, *, rounds: int = 8) -> float:
+def settle(rope: RopeConstants, state: RopeState, loads: np.ndarray, water: WaterColumn, *, rounds: int = 8) -> float:
     """Newton's method for the state that keeps still, winch stopped; the largest rate that is left, SI units."""
     rest = np.inf
     for _ in range(rounds):

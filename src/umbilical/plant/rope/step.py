@@ -16,9 +16,9 @@ import numpy as np
 
 from umbilical.compile import entry_kernel, glue, kernel
 from umbilical.plant.rope.ends import meet_body, meet_vessel
-from umbilical.plant.rope.operators import add_up
-from umbilical.plant.rope.rates import evaluate
-from umbilical.plant.rope.records import Rope, RopeOutside, RopeState, Water
+from umbilical.plant.rope.operators import add_up_positions
+from umbilical.plant.rope.rates import evaluate_rope
+from umbilical.plant.rope.records import RopeConstants, RopeOutside, RopeState, WaterColumn
 from umbilical.plant.rope.tension import pull_of, stretch_of
 
 SAFE = 2.3
@@ -27,12 +27,12 @@ FASTEST = 20.0
 """Fastest rate of the grid times an element's length over the wave speed."""
 
 
-def axial_speed(rope: Rope) -> float:
+def axial_speed(rope: RopeConstants) -> float:
     """Speed of waves along the cable, m/s."""
     return sqrt(rope.stiffness / rope.density)
 
 
-def largest_step(rope: Rope, length: float, speed: float, elements: int) -> float:
+def largest_step(rope: RopeConstants, length: float, speed: float, elements: int) -> float:
     """Longest step taken on a cable of this length, s, that the winch moves at this speed, m/s."""
     return SAFE * length / (elements * FASTEST * (axial_speed(rope) + abs(speed)))
 
@@ -50,7 +50,7 @@ def blend(state: RopeState, dt: float, share: float) -> None:
 
 
 @kernel
-def book(state: RopeState, time: float) -> None:
+def add_works(state: RopeState, time: float) -> None:
     """work += power * time."""
     for k in range(state.work.size):
         state.work[k] += time * state.power[k]
@@ -69,21 +69,27 @@ def keep_base(state: RopeState) -> None:
 
 @glue
 def advance_rope(
-    rope: Rope, state: RopeState, outside: RopeOutside, loads: np.ndarray, water: Water, dt: float, booked: bool
+    rope: RopeConstants,
+    state: RopeState,
+    outside: RopeOutside,
+    loads: np.ndarray,
+    water: WaterColumn,
+    dt: float,
+    booked: bool,
 ) -> None:
     """One step. ``outside`` and ``water`` at its start, end and middle; ``loads`` likewise, shape (3, loads)."""
     keep_base(state)
     for stage in range(3):
-        evaluate(rope, state, outside[stage], loads[stage], water, stage, booked)
+        evaluate_rope(rope, state, outside[stage], loads[stage], water, stage, booked)
         blend(state, dt, 1.0 if stage == 0 else (0.25 if stage == 1 else 2.0 / 3.0))
         if booked:
-            book(state, dt * (2.0 / 3.0 if stage == 2 else 1.0 / 6.0))
+            add_works(state, dt * (2.0 / 3.0 if stage == 2 else 1.0 / 6.0))
     state.outside[0] = outside[1]
     look_at_rope(rope, state)
 
 
 @entry_kernel
-def look_at_rope(rope: Rope, state: RopeState) -> None:
+def look_at_rope(rope: RopeConstants, state: RopeState) -> None:
     """What follows from the present state: tension along the cable and at its ends, places where elements meet."""
     n, outside = state.stretch.shape[1], state.outside[0]
     stretch_of(state.now, state.stretch, outside.length)
@@ -93,12 +99,18 @@ def look_at_rope(rope: Rope, state: RopeState) -> None:
         rope, state.now, state.pull, state.stretch, state.star, state.power, state.body[0], state.ends[0],
         outside.length,
     )  # fmt: skip
-    add_up(state.now, state.joints, outside.vessel_position, n)
+    add_up_positions(state.now, state.joints, outside.vessel_position, n)
 
 
 @entry_kernel
 def run_rope(
-    rope: Rope, state: RopeState, outside: RopeOutside, loads: np.ndarray, water: Water, dt: np.ndarray, booked: bool
+    rope: RopeConstants,
+    state: RopeState,
+    outside: RopeOutside,
+    loads: np.ndarray,
+    water: WaterColumn,
+    dt: np.ndarray,
+    booked: bool,
 ) -> None:
     """Steps one after the other: ``outside`` of shape (steps, 3), ``loads`` (steps, 3, loads), ``dt`` (steps,)."""
     for i in range(dt.size):

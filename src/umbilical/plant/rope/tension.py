@@ -7,7 +7,7 @@ from math import sqrt
 import numpy as np
 
 from umbilical.compile import kernel
-from umbilical.plant.rope.records import Rope
+from umbilical.plant.rope.records import RopeConstants
 
 SMALLEST = 1e-12
 """|r_x| below which a direction would be round-off."""
@@ -25,7 +25,7 @@ def stretch_of(x: np.ndarray, stretch: np.ndarray, length: float) -> None:
 
 
 @kernel
-def pull_of(rope: Rope, x: np.ndarray, stretch: np.ndarray, pull: np.ndarray, length: float) -> None:
+def pull_of(rope: RopeConstants, x: np.ndarray, stretch: np.ndarray, pull: np.ndarray, length: float) -> None:
     """N t at the nodes, N."""
     n = stretch.shape[1]
     for j in range(5):

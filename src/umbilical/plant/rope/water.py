@@ -6,11 +6,11 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.orbital import at_level, find_level, look_at_waves
-from umbilical.plant.rope.records import AXES, STAGES, RopeOutside, Water
+from umbilical.plant.rope.records import AXES, STAGES, RopeOutside, WaterColumn
 
 
 @kernel
-def add_waves(water: Water, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
+def add_orbital_motion(water: WaterColumn, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
     """Add the waves' motion at a height over the sheave's mean height to ``out``, as :func:`flow_at`."""
     level = find_level(water.waves, -height)
     if level < 0.0:
@@ -21,7 +21,7 @@ def add_waves(water: Water, stage: int, height: float, out: np.ndarray, at: int,
 
 
 @kernel
-def flow_at(water: Water, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
+def flow_at(water: WaterColumn, stage: int, height: float, out: np.ndarray, at: int, step: int) -> None:
     """Velocity and acceleration at a height into ``out[at], out[at + step], ...``, six numbers; linear between."""
     known, levels = water.heights, water.heights.size
     k = 1
@@ -34,11 +34,11 @@ def flow_at(water: Water, stage: int, height: float, out: np.ndarray, at: int, s
     for c in range(6):
         out[at + c * step] = above[c] + share * (below[c] - above[c])
     if water.waves.deepest > 0.0:
-        add_waves(water, stage, height, out, at, step)
+        add_orbital_motion(water, stage, height, out, at, step)
 
 
 @kernel
-def stir(water: Water, stage: RopeOutside, orbits: np.ndarray, start: float, end: float) -> None:
+def stir(water: WaterColumn, stage: RopeOutside, orbits: np.ndarray, start: float, end: float) -> None:
     """Current and waves at the stages of a step, these from their places in the rows of ``plant/orbital.py``."""
     for s in range(STAGES):
         factor, rate = stage[s].current_factor, stage[s].current_rate
@@ -53,7 +53,7 @@ def stir(water: Water, stage: RopeOutside, orbits: np.ndarray, start: float, end
 
 
 @kernel
-def flow_along(water: Water, stage: int, height: np.ndarray, flow: np.ndarray) -> None:
+def flow_along(water: WaterColumn, stage: int, height: np.ndarray, flow: np.ndarray) -> None:
     """Velocity and acceleration of the water at the nodes, shape (5, 6 n)."""
     n = height.shape[1]
     for j in range(5):
