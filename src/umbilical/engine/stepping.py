@@ -20,6 +20,7 @@ from umbilical.plant.cable import (
     look_at_ends,
     make_blocks,
     make_cable,
+    make_faces,
     march,
 )
 from umbilical.plant.current import Flow, make_flow
@@ -40,6 +41,7 @@ from umbilical.plant.forces.table import (
     on_payload,
 )
 from umbilical.plant.initial import initial_slopes
+from umbilical.plant.layout import zeros
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor, make_motors, thrust
 from umbilical.plant.multistep import EXPLICIT, IMPLICIT, KNOWN
 from umbilical.plant.top import vessel_at
@@ -100,7 +102,7 @@ class PlantState(NamedTuple):
         now: one record.
         motors: one record per motor.
         blocks: slopes and velocities, and their last rates, shape (4, 5, 2 n), see ``plant/cable.py``.
-        faces: fluxes where elements meet, shape (2, n + 1).
+        faces: fluxes where elements meet, see ``make_faces`` in ``plant/cable.py``.
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
         water: what it does at the nodes.
@@ -131,8 +133,8 @@ def make_plant_state(scenario: Scenario) -> PlantState:
         now=Instant.many(1),
         motors=MotorState.many(n),
         blocks=make_blocks(initial_slopes(scenario)),
-        faces=np.zeros((2, elements + 1)),
-        starts=np.zeros(elements + 1),
+        faces=make_faces(elements),
+        starts=zeros(elements + 1),
         loads=np.zeros(loads),
         water=make_flow(elements),
         power=make_along(elements),

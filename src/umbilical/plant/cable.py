@@ -29,7 +29,7 @@ from umbilical.compile import fma, glue, kernel, row_kernel
 from umbilical.frames import Frame, real, vector
 from umbilical.plant.elements import DERIVATIVE, NODES, W0, W1, W2
 from umbilical.plant.exogenous import Exogenous
-from umbilical.plant.layout import positions, to_elements
+from umbilical.plant.layout import positions, to_elements, zeros
 from umbilical.relations.tension import (
     AxialDrag,
     Hanging,
@@ -50,7 +50,7 @@ LIFT = 1.0 / W0
 # Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants.
 PRESENT, RATES = 0, 1
 BLOCKS = 4
-FLOW, PULL = range(2)  # rows of the faces, shape (2, n + 1): the two fluxes where elements meet, both ends included
+FLOW, PULL = range(2)  # rows of the faces: the two fluxes where elements meet, both ends included
 Two = tuple[float, float]
 Three = tuple[float, float, float]
 Five = tuple[float, float, float, float, float]
@@ -174,9 +174,14 @@ def at_moment(cable: CableConstants, outside: Exogenous) -> Moment:
 def make_blocks(slopes: np.ndarray) -> np.ndarray:
     """The cable at rest (Dy/Dt = 0) with the slopes Y_sigma, m, shape (5, n), as a state (4, 5, 2 n)."""
     elements = slopes.shape[1]
-    blocks = np.zeros((BLOCKS, 5, 2 * elements))
+    blocks = zeros(BLOCKS, 5, 2 * elements)
     blocks[PRESENT, :, :elements] = slopes
     return blocks
+
+
+def make_faces(elements: int) -> np.ndarray:
+    """Room for what is kept where elements meet, shape (2, n + 1 or more, so that rows begin a line of the cache)."""
+    return zeros(2, 8 * (elements // 8 + 1))
 
 
 @row_kernel
@@ -226,7 +231,7 @@ def meet_ends(
     cable: CableConstants, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, ends: Ends, moment: Moment
 ) -> None:
     """Flux at the vessel and at the ROV, whose velocities are given, and the power it takes, W."""
-    n = faces.shape[1] - 1
+    n = losses.size - 1
     length, slip = moment.length, moment.slip
     foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
     head = tension(length, moment.net, moment.across) / cable.line_inertia
@@ -271,7 +276,7 @@ def rates_inside(cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: n
     w0, w1, w2, w3, w4 = x[0, n:], x[1, n:], x[2, n:], x[3, n:], x[4, n:]
     s0, s1, s2, s3, s4 = out[0, :n], out[1, :n], out[2, :n], out[3, :n], out[4, :n]
     r0, r1, r2, r3, r4 = out[0, n:], out[1, n:], out[2, n:], out[3, n:], out[4, n:]
-    left, right = faces[FLOW, :n], faces[FLOW, 1:]
+    left, right = faces[FLOW, :n], faces[FLOW, 1 : n + 1]
     t1, t2, t3, t4 = speed * n1, speed * n2, speed * n3, speed * n4
     for e in range(n):
         t = fma(speed, above[e], slip)
@@ -283,7 +288,7 @@ def rates_inside(cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: n
             fma(t4 - t, x4[e], w4[e]),
         )
         s0[e], s1[e], s2[e], s3[e], s4[e] = differentiate(d, flows, left[e], right[e])
-    left, right = faces[PULL, :n], faces[PULL, 1:]
+    left, right = faces[PULL, :n], faces[PULL, 1 : n + 1]
     q1, q2, q3, q4 = rise * n1, rise * n2, rise * n3, rise * n4
     for e in range(n):
         t, q = fma(speed, above[e], slip), fma(rise, above[e], foot)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import kernel
+from umbilical.plant.layout import zeros
 from umbilical.plant.orbital import LEVELS, RATE, VELOCITY, Levels, at_level, find_level
 from umbilical.scenario.environment import Environment
 
@@ -29,7 +30,7 @@ class Flow(NamedTuple):
 
 def make_flow(elements: int) -> Flow:
     """Water at rest."""
-    at_nodes = np.zeros((3, 5, elements))
+    at_nodes = zeros(3, 5, elements)
     return Flow(at_nodes[0], at_nodes[1], at_nodes[2], np.zeros((2, 1, LEVELS)))
 
 

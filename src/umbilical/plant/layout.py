@@ -10,10 +10,23 @@ What a person reads, and what is stored, lies along the cable: 4 n + 1 nodes fro
 from __future__ import annotations
 
 from functools import lru_cache
+from math import prod
 
 import numpy as np
 
 from umbilical.plant.elements import DEGREE, INTEGRAL, NODES, WEIGHTS, interpolation_row
+
+
+def zeros(*shape: int) -> np.ndarray:
+    """Zeros that begin where a line of the processor's cache does: what straddles two costs up to a tenth of a run.
+
+    >>> zeros(3, 5).ctypes.data % 64
+    0
+    """
+    count, line = prod(shape), 8
+    room = np.zeros(count + line)
+    begin = -(room.ctypes.data // room.itemsize) % line
+    return room[begin : begin + count].reshape(shape)
 
 
 def node_count(elements: int) -> int:

@@ -43,7 +43,7 @@ from umbilical.plant.forces.body_drag import BodyDrag
 from umbilical.plant.forces.current import Moved
 from umbilical.plant.forces.drag import Drag
 from umbilical.plant.forces.force import Decay, OperatingPoint
-from umbilical.plant.layout import to_elements
+from umbilical.plant.layout import to_elements, zeros
 from umbilical.plant.orbital import Levels, levels_of, look_at_waves
 from umbilical.plant.seaway import heaving
 from umbilical.relations.tension import tension as tension_at
@@ -173,8 +173,8 @@ def make_forces(scenario: Scenario) -> Forces:
 
 def make_along(elements: int) -> Along:
     """Nothing yet."""
-    rows = np.zeros((len(Along._fields) - 1, elements))
-    return Along(**dict(zip(Along._fields, (*rows, np.zeros(elements + 1)), strict=True)))
+    rows = zeros(len(Along._fields) - 1, elements)
+    return Along(**dict(zip(Along._fields, (*rows, zeros(elements + 1)), strict=True)))
 
 
 @glue
