@@ -93,6 +93,7 @@ def test_the_vessel_and_loads_along_the_cable_are_bounded() -> None:
         {"shape": "gaussian", "amplitude": 1.0, "distance": 150.0, "width": 30.0},
         {"shape": "static", "force": 80.0},
         {"shape": "table", "positions": [0.0, 0.3, 0.7, 1.0], "displacements": [0.0, 1.0, 0.5, 1.0]},
+        {"shape": "equilibrium", "tip": 1.0},
     ],
     ids=lambda initial: initial["shape"],
 )

@@ -41,8 +41,11 @@ class Range(NamedTuple):
 
 def fixes(loop: Loop, task: ProofTask) -> tuple[Problem, ...]:
     """What was proved to mend it: a ``control.law.slope_gain``, else a slower winch, else nothing."""
-    tried, rate = _sampled(loop, task.motion)
-    found = _sampled_range(loop, task.motion, tried, rate)
+    thin = Payout(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in task.motion))  # three samples of each slab
+    slowest_wave = float(np.sqrt(tension(0.0, task.motion.net.min(), loop.hanging) / loop.rho))
+    tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
+    rate = np.array([best_rate(loop._replace(beta=beta), thin) for beta in tried])
+    found = _sampled_range(loop, thin, tried, rate)
     gain = _gain(loop, task, found) if found else None
     slower = None if gain else _slower_winch(loop, task, float(tried[np.argmax(rate)]))
     return tuple(filter(None, (gain, slower)))
@@ -96,22 +99,11 @@ def best_rate(loop: Loop, motion: Payout, *, enough: float = np.inf) -> float:
     return -np.inf if found is None else float(decay_rates(loop, motion, *found).min())
 
 
-def _sampled(loop: Loop, motion: Payout) -> tuple[np.ndarray, np.ndarray]:
-    """Gains over eight decades, m/s, and the rate at three samples of each slab, 1/s."""
-    slowest_wave = float(np.sqrt(tension(0.0, motion.net.min(), loop.hanging) / loop.rho))
-    tried = slowest_wave * np.geomspace(1e-4, 1e4, TRIED)
-    return tried, np.array([best_rate(loop._replace(beta=beta), _thin(motion)) for beta in tried])
-
-
-def _thin(motion: Payout) -> Payout:
-    return Payout(*(part[:, :: (part.shape[1] - 1) // 2 or 1] for part in motion))
-
-
 def _sampled_range(loop: Loop, motion: Payout, tried: np.ndarray, rate: np.ndarray) -> Range | None:
     """From the smallest to the largest gain with a positive rate at these samples."""
 
     def decays(beta: float) -> bool:
-        return best_rate(loop._replace(beta=beta), _thin(motion), enough=0.0) > 0.0
+        return best_rate(loop._replace(beta=beta), motion, enough=0.0) > 0.0
 
     good = np.flatnonzero(rate > 0.0)
     if not good.size:
@@ -151,35 +143,24 @@ def _range(loop: Loop, motion: Payout, proved: Range, too_small: bool) -> Proble
     edge, near = (f"must be at least {low} m/s", low) if too_small else (f"must not exceed {high} m/s", high)
     top = f" to {high} m/s" if np.isfinite(proved.high) else " m/s upward"
     span = f"{low}{top}" if proved.low else f"up to {high} m/s"
-    return Problem(
-        "control.law.slope_gain",
-        f"{loop.beta:g} m/s",
-        f"proved at {near} m/s, by samples {span}, with {SLACK:.1%} of each bound left free",
-        f"{_what_the_winch_does(motion)}, V is proved to decay only with such gains",
-        f"slope_gain {edge} for {_what_the_winch_does(motion)}",
-    )
+    proof = f"proved at {near} m/s, by samples {span}, with {SLACK:.1%} of each bound left free"
+    does = _what_the_winch_does(motion)
+    reason, fix = f"{does}, V is proved to decay only with such gains", f"slope_gain {edge} for {does}"
+    return Problem("control.law.slope_gain", f"{loop.beta:g} m/s", proof, reason, fix)
 
 
 def _single(loop: Loop, motion: Payout, gain: float) -> Problem:
-    return Problem(
-        "control.law.slope_gain",
-        f"{loop.beta:g} m/s",
-        f"proved at {gain:.{DIGITS}g} m/s",
-        f"{_what_the_winch_does(motion)}, V is proved to decay with this gain and was not with yours",
-        f"slope_gain = {gain:.{DIGITS}g} m/s for {_what_the_winch_does(motion)}",
-    )
+    found, does = f"{gain:.{DIGITS}g} m/s", _what_the_winch_does(motion)
+    reason = f"{does}, V is proved to decay with this gain and was not with yours"
+    fix = f"slope_gain = {found} for {does}"
+    return Problem("control.law.slope_gain", f"{loop.beta:g} m/s", f"proved at {found}", reason, fix)
 
 
 def _winch(loop: Loop, motion: Payout, changes: dict[str, float], beta: float) -> Problem:
     slower = " and ".join(f"winch.{key} = {value:g}" for key, value in changes.items())
     gain = "" if beta == loop.beta else f", with control.law.slope_gain = {beta:g}"
-    return Problem(
-        "winch",
-        _what_the_winch_does(motion),
-        f"proved with {slower}{gain}",
-        "no slope_gain that was tried is certified for this motion",
-        f"a slower winch: {slower}{gain}",
-    )
+    reason, does = "no slope_gain that was tried is certified for this motion", _what_the_winch_does(motion)
+    return Problem("winch", does, f"proved with {slower}{gain}", reason, f"a slower winch: {slower}{gain}")
 
 
 def _what_the_winch_does(motion: Payout) -> str:

@@ -12,10 +12,9 @@ from umbilical.certificate.ranges import ROUNDING
 from umbilical.certificate.records import Certificate, Ranges, Start, Weights
 from umbilical.certificate.setting import Loop
 from umbilical.plant import signals
-from umbilical.plant.signals import spline
+from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.top import top_at
 from umbilical.relations.tension import tension
-from umbilical.scenario.environment import GaussianShape, SineShape, StaticShape, TableShape
 from umbilical.scenario.scenario import Scenario
 
 POINTS = 400
@@ -37,10 +36,9 @@ def residual_of(loop: Loop, ranges: Ranges, weights: Weights, rate: float, loads
     smallest. D' is that of the force on the ROV alone, since an ideal thruster delivers what is commanded.
     """
     spent = max(0.5 * rate, 0.0) if loads.cable else 0.0
-    of_cable = 0.0
+    of_cable = _of_vessel(loop, ranges, weights, loads.vessel_velocity)
     if loads.cable:
-        of_cable = loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
-    of_cable += _of_vessel(loop, ranges, weights, loads.vessel_velocity)
+        of_cable += loads.cable / (2.0 * loop.rho * spent) if spent else float("inf")
     if loop.k_s is None:
         of_law = weights.boundary * loads.force**2 / (4.0 * loop.k_a)  # half of k_a pays; loop.k_a is the other half
     else:
@@ -66,10 +64,9 @@ def start_of(loop: Loop, scenario: Scenario) -> Start:
     """At rest in the initial shape, with ``D^ = 0``: V2 vanishes, and u_a is the slope's alone."""
     motion = top_at(scenario.winch, 0.0)
     length, net = float(motion.length), float(motion.net_gravity(loop.g))
-    x = np.linspace(0.0, length, 16 * POINTS + 1)
-    pull = tension(length - x, net, loop.hanging)
-    slope = _initial_slope(scenario, length, pull)(x)
-    strain = 0.5 * np.trapezoid(pull * slope**2, x)
+    sigma = np.linspace(0.0, 1.0, 16 * POINTS + 1)
+    slope = slope_of_shape(scenario, sigma) / length
+    strain = 0.5 * length * np.trapezoid(tension(length * (1.0 - sigma), net, loop.hanging) * slope**2, sigma)
     force = float(signals.evaluate(scenario.environment.payload_force, 0.0))
     return Start(float(strain), float(loop.beta * slope[-1]), force)
 
@@ -78,28 +75,6 @@ def lyapunov_of(loop: Loop, weights: Weights, start: Start) -> float:
     """V at the start, J."""
     of_force = 0.0 if loop.k_s is None else start.missed**2 / (loop.k_s * loop.vs)
     return start.cable + 0.5 * weights.boundary * (loop.m * start.error**2 + of_force)
-
-
-def _initial_slope(scenario: Scenario, length: float, pull: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
-    """y_x of the initial shape as a function of x, where the tension is ``pull``, N."""
-    shape = scenario.initial
-    match shape:
-        case SineShape():
-            wave = shape.half_waves * np.pi / length
-            return lambda x: shape.amplitude * wave * np.cos(wave * x)
-        case GaussianShape():
-            return lambda x: _gaussian_slope(shape, length - x)
-        case StaticShape():
-            return lambda x: shape.force / pull
-        case TableShape():
-            return lambda x: np.asarray(spline(shape.positions, shape.displacements)(x / length, 1)) / length
-        case _:
-            return np.zeros_like
-
-
-def _gaussian_slope(shape: GaussianShape, above: np.ndarray) -> np.ndarray:
-    q = (above - shape.distance) / shape.width
-    return 2.0 * shape.amplitude * q * np.exp(-q * q) / shape.width
 
 
 def reach_of(loop: Loop, ranges: Ranges, weights: Weights, sigma: float) -> float:
@@ -113,9 +88,8 @@ def reach_of(loop: Loop, ranges: Ranges, weights: Weights, sigma: float) -> floa
     shortest, longest, lightest = (part.ravel()[:, None] for part in (*ranges.length, ranges.net.low))
     above = 1.0 - share
     pull = np.minimum(*(tension(above * length, lightest, loop.hanging) for length in (shortest, longest)))
-    left = (1.0 - ROUNDING) * pull - (1.0 + ROUNDING) * loop.rho * (
-        weights.vessel + weights.cross * share * longest
-    ) ** 2
+    reach = weights.vessel + weights.cross * share * longest
+    left = (1.0 - ROUNDING) * pull - (1.0 + ROUNDING) * loop.rho * reach**2
     if not left.min() > 0.0:
         return float("inf")
     integral = longest.ravel() * np.trapezoid(1.0 / left, share, axis=1)
@@ -153,12 +127,9 @@ def bound(certificate: Certificate, t: np.ndarray, start: float | None = None) -
 
 
 def advance_bound(
-    certificate: Certificate,
-    grid: np.ndarray,
-    power: float | np.ndarray,
-    value: float,
+    certificate: Certificate, grid: np.ndarray, power: float | np.ndarray, value: float,
     jump: Callable[[float, float], float],
-) -> Iterator[float]:
+) -> Iterator[float]:  # fmt: skip
     """The end of each step of a grid from 0: the solution of ``V' = -(th - spent) V + power``, power held, then a jump.
 
     Args:

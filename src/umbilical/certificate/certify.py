@@ -48,8 +48,7 @@ def certify(scenario: Scenario, *, fix: bool = True) -> Certificate:
     dragged = in_water(scenario.cable, scenario.payload, scenario.environment).body_linear
     loads = loads_of(scenario.environment, float(ranges.length.high.max()), dragged)
     task = ProofTask(scenario.winch, edges, motion, loads.vessel_velocity > 0.0)
-    found = find_and_prove(loop, task)
-    weights, proved, proof = found
+    weights, proved, proof = found = find_and_prove(loop, task)
     spent, residual, cable_residual = residual_of(loop, ranges, weights, float(proved.min()), loads)
     stated = conditions(loop, motion, weights, proved, task.vessel_moves)
     return Certificate(

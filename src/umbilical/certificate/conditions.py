@@ -121,7 +121,8 @@ def extent(loop: Loop, motion: Payout) -> Extent:
 
     Between samples the speed may fall a little lower, unless it is exactly 0 there, as at both ends of a smooth law.
     """
-    reach = np.minimum(loop.beta, _wave_speed_squared(loop, motion) / loop.beta) * (1.0 - SLACK)
+    speed_squared = tension(0.0, motion.net, loop.hanging) / loop.rho  # T/rho at the ROV, m2/s2
+    reach = np.minimum(loop.beta, speed_squared / loop.beta) * (1.0 - SLACK)
     lowest, largest = float(motion.v.min()), float(abs(motion.v).max())
     if abs(lowest) <= 1e-12 * largest:
         return Extent(reach, 0.0)
@@ -183,33 +184,19 @@ def conditions(
     loop: Loop, motion: Payout, weights: Weights, proved: Array, vessel_moves: bool = False
 ) -> tuple[Condition, ...]:
     """K0 to K6 at every sample, for the proved rate of each slab; K4 must hold strictly where the vessel moves."""
-    shape = motion.t.shape
-    return tuple(
-        Condition(
-            name, text, np.broadcast_to(left, shape), np.broadcast_to(right, shape), unit, sigma, "<=" not in text
-        )
-        for name, text, left, right, unit, sigma in _conditions(loop, motion, weights, proved, vessel_moves)
-    )
-
-
-def _conditions(
-    loop: Loop, motion: Payout, weights: Weights, proved: Array, vessel_moves: bool
-) -> Iterator[tuple[Any, ...]]:
     case = terms_of(loop, weights, motion)
     ends = tuple(_rates_at_ends(case))
+    best = np.minimum(*ends)
+    # Lowered in each slab until the least of them is the rate that was proved, if any was.
+    rates = best - np.where(np.isfinite(proved), best.min(axis=1) - proved, 0.0)[:, None]
     wave, *others = sides(case, float(np.nan_to_num(proved).max()), vessel_moves)
-    yield wave
-    yield "K0", "lam q/gam < sqrt(T/rho)", case.reach, np.sqrt(case.foot / loop.rho), "m/s", 1.0
-    yield from others[:4]
-    tighter = float(ends[1].min() < ends[0].min())
-    yield "K5", "0 < th with M - th/2 N >= 0", 0.0, _lowered(np.minimum(*ends), proved), "1/s", tighter
-    yield from others[4:]
-
-
-def _lowered(sampled: Array, proved: Array) -> Array:
-    """The samples of th, lowered in each slab until the least of them is the rate that was proved, if any was."""
-    excess = np.where(np.isfinite(proved), sampled.min(axis=1) - proved, 0.0)
-    return sampled - excess[:, None]
+    everywhere = np.zeros(motion.t.shape)
+    k0 = ("K0", "lam q/gam < sqrt(T/rho)", case.reach, np.sqrt(case.foot / loop.rho), "m/s", 1.0)
+    k5 = ("K5", "0 < th with M - th/2 N >= 0", 0.0, rates, "1/s", float(ends[1].min() < ends[0].min()))
+    return tuple(
+        Condition(name, text, left + everywhere, right + everywhere, unit, sigma, "<=" not in text)
+        for name, text, left, right, unit, sigma in (wave, k0, *others[:4], k5, *others[4:])
+    )
 
 
 def tightest(condition: Condition, motion: Payout) -> Inequality:
@@ -223,15 +210,7 @@ def tightest(condition: Condition, motion: Payout) -> Inequality:
 def relative_margins(found: tuple[Condition, ...]) -> dict[str, Array]:
     """Smallest margin in each slab over the larger side, by name, shape (slabs,); K5 over its own best."""
     margins: dict[str, Array] = {}
-    for condition in found:
-        left, right = condition.left, condition.right
+    for name, _, left, right, *_ in found:
         scale = np.maximum(np.abs(left), np.abs(right)).max() or 1.0
-        worst = ((right - left) / scale).min(axis=1)
-        known = margins.get(condition.name)
-        margins[condition.name] = worst if known is None else np.minimum(worst, known)
+        margins[name] = np.minimum(((right - left) / scale).min(axis=1), margins.get(name, np.inf))
     return margins
-
-
-def _wave_speed_squared(loop: Loop, motion: Payout) -> Array:
-    """T/rho at the ROV, m2/s2."""
-    return tension(0.0, motion.net, loop.hanging) / loop.rho

@@ -46,8 +46,7 @@ def highest_modes_real_part(loop: Loop, length: float) -> float:
 
     tau is the time a wave takes from end to end.
     """
-    foot, top = (np.sqrt(_pull(loop, s) / loop.rho) for s in (0.0, length))
-    travel = 2.0 * length / (foot + top)  # c^2 is a line of s
+    foot, travel = np.sqrt(_pull(loop, 0.0) / loop.rho), _travel(loop, length)
     with np.errstate(divide="ignore"):
         return float(np.log(abs((foot - loop.beta) / (foot + loop.beta))) / (2.0 * travel) - loop.c / (2.0 * loop.rho))
 
@@ -84,6 +83,7 @@ def _pull(loop: Loop, s: Any) -> Any:
 
 
 def _travel(loop: Loop, length: float) -> float:
+    """Time of a wave along the cable, s: c^2 is a line of s."""
     foot, top = (np.sqrt(_pull(loop, s) / loop.rho) for s in (0.0, length))
     return float(2.0 * length / (foot + top))
 

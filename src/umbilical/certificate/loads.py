@@ -5,6 +5,7 @@ A sum is bounded by the sum of its terms' bounds: never too small, and exact for
 
 from __future__ import annotations
 
+from collections import defaultdict
 from math import pi
 from typing import NamedTuple
 
@@ -53,14 +54,8 @@ def loads_of(environment: Environment, longest: float, drag: float = 0.0) -> Loa
     of_cable = sum(largest_value(load.signal) * profile_norm(load.profile) for load in environment.cable_load)
     carried = drag * float(speeds_at(environment, np.array(longest)))
     force = (*environment.payload_force, *([Constant(kind="constant", value=carried)] if carried else []))
-    return Loads(
-        largest_value(force),
-        largest_rate(force),
-        jumps_of(force),
-        longest * of_cable**2,
-        largest_value(motion),
-        velocity,
-    )
+    of_force = largest_value(force), largest_rate(force), jumps_of(force)
+    return Loads(*of_force, longest * of_cable**2, largest_value(motion), velocity)
 
 
 def largest_value(signal: Signal) -> float:
@@ -79,15 +74,23 @@ def largest_rate(signal: Signal) -> float:
 
 def jumps_of(signal: Signal) -> tuple[tuple[float, float], ...]:
     """Instants at which the signal jumps, increasing, s, each with a bound of how far, in its unit."""
-    found: dict[float, float] = {}
-    for term in signal:
-        instants = {Step: ("time",), Pulse: ("start", "end")}.get(type(term), ())
-        for name in instants:
-            t = getattr(term, name)
-            found[t] = found.get(t, 0.0) + abs(getattr(term, "value", 0.0))
-        for t, step in _doubled(term):
-            found[t] = found.get(t, 0.0) + step
+    found: defaultdict[float, float] = defaultdict(float)
+    for t, step in (jump for term in signal for jump in _jumps(term)):
+        found[t] += step
     return tuple(sorted(found.items()))
+
+
+def _jumps(term: Term) -> list[tuple[float, float]]:
+    """Instants, and how far a term jumps there: a linear table at those that stand twice in it."""
+    match term:
+        case Step():
+            return [(term.time, abs(term.value))]
+        case Pulse():
+            return [(term.start, abs(term.value)), (term.end, abs(term.value))]
+        case Table():
+            places = np.flatnonzero(np.diff(term.times) == 0.0).tolist()
+            return [(term.times[k], abs(term.values[k + 1] - term.values[k])) for k in places]
+    return []
 
 
 def profile_norm(profile: Profile) -> float:
@@ -141,14 +144,6 @@ def _steepest(bell: Bell) -> float:
         return float("inf")
     u = (power - 1.0) / (power + 1.0)
     return abs(bell.amplitude) / bell.width * power * u ** (1.0 - 1.0 / power) / (1.0 + u) ** 2
-
-
-def _doubled(term: Term) -> list[tuple[float, float]]:
-    """Instants that stand twice in a linear table, and how far it jumps there."""
-    if not isinstance(term, Table):
-        return []
-    places = np.flatnonzero(np.diff(term.times) == 0.0).tolist()
-    return [(term.times[k], abs(term.values[k + 1] - term.values[k])) for k in places]
 
 
 def _extremes(term: Table, order: int) -> np.ndarray:

@@ -50,10 +50,9 @@ def _conditions(
         eta * k_a * (1.0 - 2.0 * QUARTER) - foot / (2.0 * beta),
     )  # fmt: skip
     yield (
-        "gam T_l/(2 beta) - gam rho v/2 - lam rho l",
-        "N s/m",
+        "gam T_l/(2 beta) - gam rho v/2 - lam rho l", "N s/m",
         foot / (2.0 * beta) - 0.5 * rho * v - lam * rho * length,
-    )
+    )  # fmt: skip
     yield (
         "gam T_l (beta - v)/2 - lam l/2 (T_l + rho v)", "W",
         0.5 * foot * (beta - v) - 0.5 * lam * length * (foot + rho * v),

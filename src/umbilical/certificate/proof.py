@@ -55,13 +55,7 @@ def prove(loop: Loop, winch: Winch, edges: np.ndarray, rates: np.ndarray, weight
 
 
 def _slab(
-    ctx: Any,
-    loop: Loop,
-    weights: Weights,
-    winch: Winch,
-    slab: tuple[float, float],
-    rate: float,
-    strict: bool,
+    ctx: Any, loop: Loop, weights: Weights, winch: Winch, slab: tuple[float, float], rate: float, strict: bool
 ) -> tuple[int, str, tuple[float, float]]:
     """Decide one slab: boxes it took, and the condition and the box that stayed open; a half is asked only for what
     its whole left undecided."""

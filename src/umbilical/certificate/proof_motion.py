@@ -58,12 +58,8 @@ def _(winch: Quintic, ctx: Any, t: Interval, middle: float) -> Parts:
     first = middle < winch.start + 0.5 * winch.duration
     from_start = winch.start_length + way * q**3 * (1 + 3 * p + 6 * p**2)
     length = from_start if first else winch.end_length - way * p**3 * (1 + 3 * q + 6 * q**2)
-    return (
-        length,
-        way / time * 30 * q**2 * p**2,
-        way / time**2 * 60 * q * p * (p - q),
-        way / time**3 * 60 * (1 - 6 * q * p),
-    )
+    speed, acceleration = way / time * 30 * q**2 * p**2, way / time**2 * 60 * q * p * (p - q)
+    return length, speed, acceleration, way / time**3 * 60 * (1 - 6 * q * p)
 
 
 def _within(ctx: Any, q: Interval, high: float) -> Interval:
@@ -106,9 +102,5 @@ def _(winch: TabulatedLength, ctx: Any, t: Interval, middle: float) -> Parts:
     piece = int(np.clip(np.searchsorted(winch.times, middle) - 1, 0, len(winch.times) - 2))
     cubic, square, slope, value = (ctx.mpf(float(c)) for c in curve.c[:, piece])
     since = t - winch.times[piece]
-    return (
-        value + since * (slope + since * (square + since * cubic)),
-        slope + since * (2 * square + since * 3 * cubic),
-        2 * square + 6 * cubic * since,
-        6 * cubic,
-    )
+    length = value + since * (slope + since * (square + since * cubic))
+    return length, slope + since * (2 * square + since * 3 * cubic), 2 * square + 6 * cubic * since, 6 * cubic

@@ -40,7 +40,8 @@ def best_weights(
             best, found = float(score[at]), (float(cross[at]), float(vessel[at]))
         if best > enough:
             break
-        low, high = _window(share[(slice(None), *at)], low, high)
+        centre, half = share[(slice(None), *at)], (high - low) / 4.0
+        low, high = np.clip(centre - half, 0.0, 1.0), np.clip(centre + half, 0.0, 1.0)
     return found if best > -np.inf else None
 
 
@@ -50,11 +51,4 @@ def _score(
     worst = decay_rates(loop, motion, cross[..., None, None], vessel[..., None, None]).min(axis=(-1, -2))
     if not vessel_moves:
         return worst
-    pays = vessel + float(motion.v.min())
-    return np.where(worst > 0.0, worst * pays, worst)
-
-
-def _window(centre: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Half as wide around the centre, inside the unit square."""
-    half = (high - low) / 4.0
-    return np.clip(centre - half, 0.0, 1.0), np.clip(centre + half, 0.0, 1.0)
+    return np.where(worst > 0.0, worst * (vessel + float(motion.v.min())), worst)

@@ -106,18 +106,13 @@ def ideal_constants(scenario: Scenario) -> Loop:
     if problems := list(_not_covered(scenario)):
         raise ScenarioError(problems, scenario.name)
     observes = observer is not None and observer.enabled
+    cable, payload, environment = scenario.cable, scenario.payload, scenario.environment
     return Loop(
-        rho=line_inertia(scenario.cable, scenario.payload, scenario.environment),
-        m=payload_inertia(scenario.payload),
-        g=scenario.environment.gravity,
-        wet=scenario.cable.wet_line_density,
-        weight=scenario.payload.wet_weight,
-        c=scenario.cable.damping,
-        beta=slope_gain,
-        k_a=damping_gain if observes else damping_gain / 2.0,
-        k_s=observer.gain if observer is not None and observes else None,
+        rho=line_inertia(cable, payload, environment), m=payload_inertia(payload), g=environment.gravity,
+        wet=cable.wet_line_density, weight=payload.wet_weight, c=cable.damping, beta=slope_gain,
+        k_a=damping_gain if observes else damping_gain / 2.0, k_s=observer.gain if observer and observes else None,
         vs=observer.coupling if observer is not None else 1.0,
-    )
+    )  # fmt: skip
 
 
 def _not_covered(scenario: Scenario) -> Iterator[Problem]:

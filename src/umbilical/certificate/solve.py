@@ -69,7 +69,9 @@ def find_and_prove(loop: Loop, task: ProofTask) -> Found:
     slack = SLACK * np.abs(capped) + SPREAD * np.ptp(sampled, axis=1)
     weights = Weights(*found, boundary_weight(loop, task.motion, float(capped.max())))
     slabs = [_slab(loop, task, weights, k, *numbers) for k, numbers in enumerate(zip(capped, slack, strict=True))]
-    return Found(weights, np.array([rate for rate, _ in slabs]), _joined([proof for _, proof in slabs]))
+    left_open = tuple(part for _, proof in slabs for part in proof.open)
+    proof = Proof(not left_open, sum(proof.boxes for _, proof in slabs), left_open)
+    return Found(weights, np.array([rate for rate, _ in slabs]), proof)
 
 
 def _without_room(loop: Loop, motion: Payout) -> Weights:
@@ -89,9 +91,3 @@ def _slab(
         if not any(name == "K5" for name, *_ in proof.open):
             break
     return rate, proof
-
-
-def _joined(proofs: list[Proof]) -> Proof:
-    """One proof of all slabs."""
-    left_open = tuple(part for proof in proofs for part in proof.open)
-    return Proof(not left_open, sum(proof.boxes for proof in proofs), left_open)
