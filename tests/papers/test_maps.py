@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -10,52 +11,60 @@ import pytest
 
 from umbilical.engine.simulate import simulate
 from umbilical.library import load
-from umbilical.papers.rao2022.experiments import ARMS, BELIEVED, OBSERVERS, preset
+from umbilical.papers.rao2022.experiments import ARMS, BELIEVED, OBSERVER, OBSERVERS, preset
 from umbilical.papers.rao2022.ledger import Evidence
-from umbilical.papers.rao2022.map_runs import EARLY, FACTORS, GRID, Point, gain_point, make_point, run_points
-from umbilical.papers.rao2022.maps import GAIN_CASES, PRESET_RATES, SLICES
-from umbilical.papers.rao2022.regions import diverged, reversal, same_on_grids
+from umbilical.papers.rao2022.maps import EARLY, FACTORS, GAIN_CASES, GRID, PRESET_RATES, SCANS
+from umbilical.papers.rao2022.regions import diverged, lost_at, reversal, same_on_grids
+from umbilical.run import Status
 from umbilical.scenario import Scenario
+from umbilical.studies.members import Draws
+from umbilical.studies.study import Study
 
-DEFAULT: dict[str, Any] = {}
+TWO_NUMBERS = [one for one in SCANS.values() if one.y]
 
 
 def test_maps_are_fifteen_by_fifteen_and_show_the_preset() -> None:
-    for one in SLICES:
-        assert len(one.x.values) >= 15
-        assert len(one.y.values) >= 15
-        assert any(np.isclose(one.x.values, one.x.paper))
-        assert any(np.isclose(one.y.values, one.y.paper))
+    for one in TWO_NUMBERS:
+        for axis in (one.x, one.y):
+            assert axis
+            assert len(axis.values) >= 15
+            assert any(np.isclose(axis.values, axis.paper))
 
 
 def test_ratios_are_taken_to_the_numbers_of_the_presets() -> None:
+    """At the place of the presets a run with the observer on is the preset itself, on the grid of the maps."""
     adaptive = load("paper-dead-adaptive").to_dict()
     assert tuple(motor["thrust_coefficient"] for motor in adaptive["motors"]) == FACTORS
     assert tuple(adaptive["control"]["allocation"]["rates"]) == PRESET_RATES
-    at_presets = [
-        (place, point) for one in SLICES for place, point in one.points() if place[-2:] == (one.y.paper, one.x.paper)
-    ]
-    points = {point for place, point in at_presets if place[2] in ARMS}
-    for point in _observed(points):
-        assert _values(load(point.preset, dict(point.changes))) == _values(load(point.preset))
+    for one, arm in product(TWO_NUMBERS, ARMS):
+        study = one.study(one.cases[0], arm)
+        draws, here = Draws(study), {OBSERVER: True, **({one.y.key: one.y.paper} if one.y else {})}
+        members = map(draws.member, range(1, len(draws) + 1))
+        member = next(m for m in members if draws.values(m).items() <= here.items())
+        found = draws.scenario(member, [a.name for a in study.arms].index(f"{one.x.paper:g}"))
+        assert _values(found) == _values(load(preset(one.cases[0], arm), GRID))
 
 
 def _values(scenario: Scenario) -> dict[str, Any]:
     """Everything but what is believed, which may say the truth again, and the marks."""
     data = scenario.to_dict()
     data["control"].pop("nominal")
-    return {key: value for key, value in data.items() if key != "assumed"}
+    return {key: value for key, value in data.items() if key not in ("assumed", "name", "seed")}
 
 
-def _observed(points: set[Point]) -> list[Point]:
-    """Those with the observer on: at the place of the paper they are the presets themselves."""
-    return [point for point in points if dict(point.changes)["control.disturbance_observer.enabled"]]
-
-
-def test_equal_runs_are_made_once() -> None:
+def test_along_an_axis_that_means_nothing_there_is_one_run() -> None:
     """Fault control knows no factors, and without it nothing adapts."""
-    counts = {one.name: len({point for _, point in one.points()}) for one in SLICES}
-    assert counts == {"map-time": 900, "map-factors": 2 * (225 + 2 * 15), "map-rates": 2 * (225 + 1 + 13 * 15)}
+    runs = {(n, arm): runs_of(one.study(one.cases[0], arm)) for n, one in SCANS.items() for arm in one.arms}
+    assert {place for place, count in runs.items() if count == 2 * 225} == {
+        *product(["map-time"], ARMS),
+        ("map-factors", "without"),
+        *product(["map-rates"], ("with", "boxed")),
+    }
+    assert (runs["map-factors", "with"], runs["map-rates", "without"], runs["gain", "with"]) == (30, 2, 34)
+
+
+def runs_of(study: Study) -> int:
+    return len(Draws(study)) * len(study.arms)
 
 
 def test_fault_control_knows_no_factors() -> None:
@@ -65,33 +74,36 @@ def test_fault_control_knows_no_factors() -> None:
     assert simulate(base).metrics == simulate(believing).metrics
 
 
-def samples() -> list[Point]:
-    """The corners, the middle and the preset of each map that stay."""
-    chosen = [
-        one.setting(arm, x, y)
-        for one in SLICES[:2]
-        for arm in ARMS
-        for x, y in ((one.x.values[2], one.y.values[12]), (one.x.paper, one.y.paper))
-    ]
-    return [make_point(name, observer, changes) for (name, changes), observer in product(chosen, OBSERVERS)]
+def test_a_run_that_is_refused_is_no_divergence() -> None:
+    one = SCANS["map-time"]
+    assert one.y
+    with pytest.raises(RuntimeError, match="map-time partial without: faults"):
+        replace(one, x=replace(one.x, values=(10.0,)), y=replace(one.y, values=(1.5,))).run(lambda share: None)
 
 
-def test_coarse_peaks_are_those_of_the_default_grid() -> None:
-    points = samples()
-    coarse, fine = (run_points(points, grid=grid) for grid in (GRID, DEFAULT))
-    peaks = np.array([[found[point].peak for found in (coarse, fine)] for point in points])
-    good = np.isfinite(peaks[:, 1])
-    assert good.sum() > 10
-    assert peaks[good, 0] == pytest.approx(peaks[good, 1], rel=0.01)
-    assert (np.isnan(peaks[:, 0]) == np.isnan(peaks[:, 1])).all()
+@pytest.mark.parametrize("case", ["partial", "stuck"])
+def test_coarse_peaks_are_those_of_the_default_grid(case: str) -> None:
+    """At two places of a map, in both arms, with the observer and without."""
+    for arm, observer, changes in product(ARMS, (True, False), PLACES[case]):
+        coarse, fine = (peak(preset(case, arm), {OBSERVER: observer, **changes, **grid}) for grid in (GRID, {}))
+        assert coarse == pytest.approx(fine, rel=0.01, nan_ok=True)
+
+
+PLACES: dict[str, list[dict[str, Any]]] = {
+    "partial": [{}, {"faults.1.start": 7.0, "faults.1.effectiveness": 12 / 14}],
+    "stuck": [{}, {"faults.1.value": 500.0}],
+}
+
+
+def peak(name: str, changes: dict[str, Any]) -> float:
+    """Of the ROV after the fault, m; not a number where the run diverges."""
+    run = simulate(load(name, changes))
+    return run.metrics["tip_peak_after_fault"] if run.status is Status.COMPLETED else float("nan")
 
 
 def test_the_comparison_of_grids_can_fail() -> None:
     """A gain that is 2 % off moves a peak by more than the grids may differ."""
-    changes = [{}, {"control.law.damping_gain": 1.02e4}]
-    peaks = [
-        outcome.peak for outcome in run_points(make_point(preset("dead", "without"), "on", c) for c in changes).values()
-    ]
+    peaks = [peak(preset("dead", "without"), {**GRID, "control.law.damping_gain": gain}) for gain in (1e4, 1.02e4)]
     assert peaks[0] != pytest.approx(peaks[1], rel=0.01)
 
 
@@ -118,12 +130,7 @@ def test_a_dead_motor_that_runs_away_was_dead(evidence: Evidence) -> None:
 
 
 def test_runaway_is_told_from_a_large_peak() -> None:
-    found = run_points([gain_point("on", "none", "without", gain) for gain in (1.0, 8.0)])
-    stays, lost = found.values()
-    assert np.isfinite(stays.peak)
-    assert stays.end == 50.0
-    assert np.isnan(lost.peak)
-    assert lost.end < 10.0
+    assert lost_at([(("none", "without", "on"), gain) for gain in (1.0, 8.0)]) == [False, True]
 
 
 def made_up(with_scale: float):

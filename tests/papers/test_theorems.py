@@ -18,6 +18,7 @@ from umbilical.papers.rao2022.ledger import Evidence, Verdict
 from umbilical.relations.formulas import motor_constants
 from umbilical.run import Run
 from umbilical.scenario.control import MotorLoop
+from umbilical.stability.margins import margins
 
 PAPER = load("paper")
 FIELDS = Backstepping._fields
@@ -143,8 +144,8 @@ def test_the_edges_are_edges(evidence: Evidence) -> None:
     found = evidence.proofs
     assert not proofs.certify(PAPER.replace({proofs.BETA: 0.98 * found.certified}), fix=False).holds
     assert proofs.certify(PAPER.replace({proofs.BETA: found.certified}), fix=False).holds
-    assert proofs.cascade_stable(PAPER.replace({proofs.BETA: 0.9 * found.unstable_from}))
-    assert not proofs.cascade_stable(PAPER.replace({proofs.BETA: found.unstable_from}))
+    assert margins(PAPER.replace({proofs.BETA: 0.9 * found.unstable_from}), [450.0]).stable
+    assert not margins(PAPER.replace({proofs.BETA: found.unstable_from}), [450.0]).stable
     assert proofs.edge(lambda x: x < 3.0, (1.0, 8.0), 12) == pytest.approx(3.0, rel=1e-3)
     assert np.isnan(proofs.edge(lambda x: x < 9.0, (1.0, 8.0), 3))
 

@@ -13,7 +13,7 @@ from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell
 from umbilical.papers.rao2022.figures import DOI, PICTURES, SEEN_IN, SOURCE
 from umbilical.papers.rao2022.ledger import Finding, Verdict
-from umbilical.papers.rao2022.map_runs import GRID
+from umbilical.papers.rao2022.maps import GRID
 from umbilical.papers.rao2022.reproduction import KINDS, Reproduction
 from umbilical.report import (
     Html,

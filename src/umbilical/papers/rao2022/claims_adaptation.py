@@ -21,8 +21,7 @@ from umbilical.papers.rao2022.ledger import (
     percent,
     short,
 )
-from umbilical.papers.rao2022.map_runs import EXACT
-from umbilical.papers.rao2022.maps import BOXED, RIM
+from umbilical.papers.rao2022.maps import BOXED, EXACT, RIM
 from umbilical.papers.rao2022.regions import better, diverged, row, runaways, without_repeats
 
 if TYPE_CHECKING:

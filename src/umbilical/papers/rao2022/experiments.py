@@ -60,7 +60,7 @@ def preset(case: str, arm: str) -> str:
     >>> preset("none", "without"), preset("dead", "with")
     ('paper', 'paper-dead-adaptive')
     """
-    return "-".join(["paper", *([] if case == "none" else [case]), *(["adaptive"] if arm == "with" else [])])
+    return "-".join(["paper", *([] if case == "none" else [case]), *(["adaptive"] if arm != "without" else [])])
 
 
 def cell(case: str, arm: str) -> str:

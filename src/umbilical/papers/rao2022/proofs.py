@@ -7,15 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from umbilical import Scenario, certify
+from umbilical import Scenario, certify, margins
 from umbilical.certificate import largest_bounds
 from umbilical.certificate.advice import best_rate
 from umbilical.certificate.setting import ideal_constants, sampled, slab_edges
-from umbilical.stability.impedance import hanging_cable
-from umbilical.stability.judgement import margins_at, usual_lengths, usual_thrust
-from umbilical.stability.nyquist import stability, sweep_loop
-from umbilical.stability.sampled import sampled_loop
-from umbilical.studies.engines import in_order
 
 BETA = "control.law.slope_gain"
 CERTIFIED = (0.1, 2.0)
@@ -52,10 +47,12 @@ class Proofs(NamedTuple):
 
 def prove(scenario: Scenario) -> Proofs:
     """Everything, for a scenario with the boundary law and a winch that moves."""
-    lengths = usual_lengths(scenario)
-    still = scenario.replace({"winch": {"law": "constant", "length": lengths[-1]}})
-    ours, fixed = in_order(lambda one: certify(one, fix=False), (scenario, still))
-    bounds, cascade = largest_bounds(fixed), margins_at(scenario, lengths[0])
+    winch = scenario.to_dict()["winch"]
+    shortest, longest = sorted((winch["start_length"], winch["end_length"]))
+    still = scenario.replace({"winch": {"law": "constant", "length": longest}})
+    ours, fixed = (certify(one, fix=False) for one in (scenario, still))
+    bounds, cascade = largest_bounds(fixed), margins(scenario, [shortest])
+    limits = cascade.judgements[0].margins
     return Proofs(
         rate=ours.rate,
         fixed_rate=fixed.rate if fixed.holds else float("nan"),
@@ -63,8 +60,10 @@ def prove(scenario: Scenario) -> Proofs:
         broken=tuple(condition.name for condition in ours.paper if not condition.holds),
         certified=least_certified(scenario),
         stable=cascade.stable,
-        delay=cascade.margins.delay.size if cascade.margins else float("nan"),
-        unstable_from=edge(lambda beta: cascade_stable(scenario.replace({BETA: beta})), STABLE, HALVINGS[1]),
+        delay=limits.delay.size if limits else float("nan"),
+        unstable_from=edge(
+            lambda beta: margins(scenario.replace({BETA: beta}), [shortest]).stable, STABLE, HALVINGS[1]
+        ),
     )
 
 
@@ -78,12 +77,6 @@ def least_certified(scenario: Scenario) -> float:
     found = edge(lambda beta: best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0, CERTIFIED, HALVINGS[0])
     proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), fix=False).holds
     return found if proved else float("nan")
-
-
-def cascade_stable(scenario: Scenario) -> bool:
-    """Whether the linearised sampled loop is stable at the shortest length of the run: observers, motors and all."""
-    loop = sampled_loop(scenario, usual_thrust(scenario))
-    return stability(sweep_loop(hanging_cable(scenario, usual_lengths(scenario)[0]), loop)).unstable == 0
 
 
 def edge(holds: Callable[[float], bool], between: tuple[float, float], halvings: int) -> float:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from umbilical.papers.rao2022.experiments import ARMS, GRIDS, OBSERVERS
+from umbilical import Status, load, simulate
+from umbilical.papers.rao2022.experiments import ARMS, GRIDS, OBSERVER, OBSERVERS, preset
 from umbilical.papers.rao2022.ledger import Edge, Kind, Number, percent, short
-from umbilical.papers.rao2022.map_runs import GRID, Changes, Point, gain_point, run_points
-from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS
-from umbilical.papers.rao2022.progress import Progress
+from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS, gain_setting
+from umbilical.papers.rao2022.progress import Progress, parts
 
 if TYPE_CHECKING:
     import xarray
@@ -63,11 +64,12 @@ def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[Place,
     Bisection between the last gain of the scan that stays and the first that does not; nan where all stay.
     """
     places: list[Place] = [*product(GAIN_CASES, ARMS, OBSERVERS)]
-    brackets: dict[Place, tuple[float, float]] = {place: _bracket(gain, place) for place in places}
-    for step in range(HALVINGS):
-        brackets = _halved(brackets)
-        if progress:
-            progress((step + 1) / HALVINGS)
+    brackets = {place: _bracket(gain, place) for place in places}
+    for share in parts(progress, [1.0] * HALVINGS):
+        middles = {place: float(np.sqrt(low * high)) for place, (low, high) in brackets.items() if np.isfinite(high)}
+        for (place, middle), lost in zip(middles.items(), lost_at(middles.items()), strict=True):
+            brackets[place] = (brackets[place][0], middle) if lost else (middle, brackets[place][1])
+        share(1.0)
     return {
         place: Edge(high, bool(np.isfinite(high)) and same_on_grids(high, place))
         for place, (_, high) in brackets.items()
@@ -76,36 +78,25 @@ def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[Place,
 
 def _bracket(gain: xarray.Dataset, place: Place) -> tuple[float, float]:
     """The last gain that stays before the first that runs away, and that one."""
-    peaks, gains = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values, GAINS
+    peaks = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values
     lost = np.flatnonzero(np.isnan(peaks))
-    if not lost.size:
-        return gains[-1], float("nan")
-    return gains[max(lost[0] - 1, 0)], gains[lost[0]]
+    return (GAINS[max(lost[0] - 1, 0)], GAINS[lost[0]]) if lost.size else (GAINS[-1], float("nan"))
 
 
-def _halved(brackets: Mapping[Place, tuple[float, float]]) -> dict[Place, tuple[float, float]]:
-    """Brackets half as wide, on the scale of logarithms."""
-    middles = {place: float(np.sqrt(low * high)) for place, (low, high) in brackets.items() if np.isfinite(high)}
-    points = {place: _point(place, middle) for place, middle in middles.items()}
-    found = run_points(points.values())
-    lost = {place: np.isnan(found[point].peak) for place, point in points.items()}
-    return dict(brackets) | {
-        place: (brackets[place][0], middle) if lost[place] else (middle, brackets[place][1])
-        for place, middle in middles.items()
-    }
-
-
-def _point(place: Place, gain: float) -> Point:
-    case, arm, observer = place
-    return gain_point(observer, case, arm, gain)
+def lost_at(points: Iterable[tuple[Place, float]], elements: int = GRIDS[0]) -> list[bool]:
+    """Whether the loop runs away at each place and gain."""
+    scenarios = [
+        load(preset(case, arm), {"grid.elements": elements, OBSERVER: on == "on", **gain_setting(case, arm, gain)})
+        for (case, arm, on), gain in points
+    ]
+    with ThreadPoolExecutor() as pool:
+        return [run.status is not Status.COMPLETED for run in pool.map(simulate, scenarios)]
 
 
 def same_on_grids(edge: float, place: Place) -> bool:
     """Whether the loop stays just below an edge and runs away just above it on every grid."""
-    points = [_point(place, edge * factor) for factor in (1.0 / NEAR, NEAR)]
-    grids: list[Changes] = [{**GRID, "grid.elements": elements} for elements in GRIDS]
-    found = [[np.isnan(outcome.peak) for outcome in run_points(points, grid=grid).values()] for grid in grids]
-    return all(lost == [False, True] for lost in found)
+    points = [(place, edge / NEAR), (place, edge * NEAR)]
+    return all(lost_at(points, elements) == [False, True] for elements in GRIDS)
 
 
 def runaways(found: Mapping[Place, Edge], arm: str) -> Region:

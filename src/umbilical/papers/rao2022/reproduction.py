@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import Future
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -16,7 +14,7 @@ from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs, cell
 from umbilical.papers.rao2022.figures import PICTURES, Picture, needed
 from umbilical.papers.rao2022.figures.style import RESOLUTION
 from umbilical.papers.rao2022.ledger import Evidence, Finding
-from umbilical.papers.rao2022.maps import GAIN, MAPS, NAMES, compute_maps
+from umbilical.papers.rao2022.maps import MAPS, SCANS, compute_maps
 from umbilical.papers.rao2022.progress import Progress, parts
 from umbilical.papers.rao2022.proofs import prove
 from umbilical.papers.rao2022.regions import edges
@@ -100,7 +98,7 @@ def reproduce(
     """
     pictures = choose(names, maps=maps)
     wanted = {picture.name for picture in pictures if picture.scanned}
-    scans = [name for name in NAMES if name in wanted]
+    scans = [name for name in SCANS if name in wanted]
     shares = [8.0, 3.0 + 12.0 * sum(name in MAPS for name in scans) if scans else 0.0, 0.0 if names else 2.0, 10.0]
     running, scanning, edging, drawing = parts(progress, shares)
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
@@ -111,7 +109,7 @@ def reproduce(
 
 def evidence(runs: Runs, scans: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> Evidence:
     """What claims are judged by, from runs and scans, with the edges of stability looked for."""
-    gain, maps = scans[GAIN], {name: scans[name] for name in MAPS if name in scans}
+    gain, maps = scans["gain"], {name: scans[name] for name in MAPS if name in scans}
     return Evidence(runs, gain, edges(gain, progress), maps, prove(runs[cell("none", "without")].scenario))
 
 
@@ -124,35 +122,24 @@ def run_experiments(names: Sequence[str], progress: Progress | None = None) -> R
 
 
 def show_all(
-    pictures: Sequence[Picture], runs: Runs, slices: Mapping[str, xarray.Dataset], processes: int, progress: Progress
+    pictures: Sequence[Picture], runs: Runs, scans: Mapping[str, xarray.Dataset], processes: int, progress: Progress
 ) -> tuple[Shown, ...]:
     """All figures with their data; drawing takes as long as running, so several processes share it."""
-    shown = []
-    with engines.processes(processes) if processes > 1 else nullcontext() as pool:
-        begin = pool.submit if pool else _at_once
-        begun = [(p, data := p.data(runs, slices), begin(draw, p.name, data)) for p in pictures]
-        for picture, data, drawn in begun:
-            contents, svg = drawn.result()
-            shown.append(Shown(picture, data, contents, svg))
-            progress(len(shown) / len(pictures))
-    return tuple(shown)
+    data = [picture.data(runs, scans) for picture in pictures]
+    with engines.processes(processes) if processes > 1 else engines.threads(1) as pool:
+        drawn = in_order(draw, list(zip((picture.name for picture in pictures), data, strict=True)), progress, pool)
+    return tuple(Shown(picture, one, *files) for picture, one, files in zip(pictures, data, drawn, strict=True))
 
 
-def _at_once(function: Callable[..., Drawn], *arguments: Any) -> Future[Drawn]:
-    """Its result, without other processes."""
-    done: Future[Drawn] = Future()
-    done.set_result(function(*arguments))
-    return done
-
-
-def show(picture: Picture, runs: Runs, slices: Mapping[str, xarray.Dataset]) -> Shown:
+def show(picture: Picture, runs: Runs, scans: Mapping[str, xarray.Dataset]) -> Shown:
     """One figure with its data, as the bytes of its files."""
-    data = picture.data(runs, slices)
-    return Shown(picture, data, *draw(picture.name, data))
+    data = picture.data(runs, scans)
+    return Shown(picture, data, *draw((picture.name, data)))
 
 
-def draw(name: str, data: xarray.Dataset) -> Drawn:
-    """The files of a figure by ending, and the figure as SVG for the report."""
+def draw(named: tuple[str, xarray.Dataset]) -> Drawn:
+    """The files by ending of the figure of a name and its data, and the figure as SVG for the report."""
+    name, data = named
     figure = PICTURES[name].draw(data)
     figure.draw_without_rendering()
     figure.set_layout_engine(None)  # laid out once; the three renderings then only draw
