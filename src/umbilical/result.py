@@ -15,22 +15,25 @@ class ResultFaces:
     """Base of results.
 
     Attributes:
-        shown_by: module with ``conclusion``, ``text`` and ``document`` of such a result.
+        shown_by: module whose ``FACE`` (:class:`umbilical.faces.conclusion.Face`) shows such a result.
         drawn_by: name of its picture, in ``umbilical.plots``.
     """
 
     shown_by: ClassVar[str]
     drawn_by: ClassVar[str]
 
+    @property
+    def face(self) -> Any:
+        """What shows such a result."""
+        return import_module(self.shown_by).FACE
+
     def summary(self) -> str:
         """The verdict and what it rests on, as the command line prints it."""
-        module = import_module(self.shown_by)
-        return f"{module.conclusion(self).headline}\n{module.text(self)}"
+        return self.face.summary(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as ``--json`` prints it, the verdict first."""
-        module = import_module(self.shown_by)
-        return {**module.conclusion(self).document(), **module.document(self)}
+        return self.face.to_dict(self)
 
     def plot(self, **options: Any) -> Any:
         """Draw it; options as for the function of ``umbilical.plots`` that draws such results."""

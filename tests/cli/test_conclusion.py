@@ -7,18 +7,21 @@ from typing import get_args
 
 import pytest
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.output import EXIT_CODES
-from umbilical.faces.conclusion import Conclusion, Decision
+from umbilical.cli.output import EXIT_CODES, conclude
+from umbilical.faces.conclusion import Conclusion, Decision, Face
+from umbilical.result import ResultFaces
 
 
 @pytest.mark.parametrize("decision", get_args(Decision))
 def test_line_object_and_exit_code_say_the_same(decision, capsys):
-    found = Conclusion(decision, "headline")
-    parts = {"text": lambda: "details", "document": lambda: {"number": 1.0}, "files": {"plot": "a.png"}}
-    code = conclude(found, **parts, as_json=False)
+    class Found(ResultFaces):
+        face = Face(  # pyright: ignore[reportAssignmentType]
+            lambda _: Conclusion(decision, "headline"), lambda _: "details", lambda _: {"number": 1.0}
+        )
+
+    code = conclude(Found(), files={"plot": "a.png"}, as_json=False)
     assert capsys.readouterr().out == "headline\ndetails\n  plot: a.png\n"
-    assert conclude(found, **parts, as_json=True) == code
+    assert conclude(Found(), files={"plot": "a.png"}, as_json=True) == code
     document = json.loads(capsys.readouterr().out)
     assert document == {
         "verdict": decision, "headline": "headline", "exit_code": code, "files": {"plot": "a.png"}, "number": 1.0

@@ -24,11 +24,11 @@ def test_one_verdict_decides_first_line_and_exit_code(met: bool, code: int, word
     from types import SimpleNamespace
     from typing import Any
 
-    from umbilical.faces.design import conclusion
+    from umbilical.faces.design import FACE
 
     scenario = SimpleNamespace(name="mine")
     found: Any = SimpleNamespace(met=met, objective="both", after=SimpleNamespace(scenario=scenario))
-    assert (conclusion(found).exit_code, words in conclusion(found).headline) == (code, True)
+    assert (FACE.conclusion(found).exit_code, words in FACE.conclusion(found).headline) == (code, True)
 
 
 def test_a_limit_has_one_of_four_names(umbilical) -> None:

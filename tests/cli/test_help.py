@@ -88,3 +88,6 @@ def test_the_tab_key_offers_commands_options_and_presets():
     assert offered("umbilical ma") == ["margins"]
     assert offered("umbilical margins --len") == ["--lengths"]
     assert offered("umbilical run paper-d") == ["paper-dead", "paper-dead-adaptive"]
+    assert offered("umbilical tune gain") == ["gain-tuning"]
+    assert offered("umbilical lower work") == ["work-class"]
+    assert {"work-class", "work-class-1000m-current"} <= {*offered("umbilical show work")}

@@ -29,6 +29,10 @@ class Bang(Damper):
 
 class Broken:
     period = 1e-3
+
+class Failing(Damper):
+    def update(self, t, measurement, state):
+        raise ValueError("lost")
 """
 
 
@@ -66,7 +70,14 @@ def test_margins_that_nothing_speaks_for_are_unresolved(umbilical, laws, tmp_pat
 
 
 @pytest.mark.parametrize("command", ["run", "margins"])
-@pytest.mark.parametrize(("name", "why"), [("Broken", "no start, update"), ("Missing", "has no attribute")])
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("Broken", "no start, update"),
+        ("Missing", "has no attribute"),
+        ("Failing", "run: Failing failed at t = 0 s: ValueError: lost ("),
+    ],
+)
 def test_what_is_no_controller_is_refused_before_the_work(umbilical, laws, command, name, why):
     done = umbilical(command, "ringdown", "--controller", f"{laws}:{name}")
     assert done.code == 2
@@ -87,5 +98,8 @@ def test_a_result_says_what_decided_and_never_passes_for_the_scenarios_own(umbil
 
 def test_names_of_a_module_are_told_where_one_is_missing(umbilical, laws):
     assert "did you mean 'Damper'?" in umbilical("run", "paper", "--controller", f"{laws}:Dampr").err
-    assert f"{laws}:NAME" in umbilical("run", "paper", "--controller", f"{laws}.py:Damper").err
-    assert "known: Damper, Bang, Broken" in umbilical("run", "paper", "--controller", laws).err
+    assert f" {laws}:NAME" in umbilical("run", "paper", "--controller", f"{laws}.py:Damper").err
+    assert (
+        " elsewhere:NAME, in the folder of elsewhere.py" in umbilical("run", "paper", "--controller", "elsewhere:A").err
+    )
+    assert "known: Damper, Bang, Broken, Failing" in umbilical("run", "paper", "--controller", laws).err

@@ -18,7 +18,7 @@ def test_without_a_terminal_quick_work_is_silent_and_long_work_writes_few_lines(
             advance(share / 100.0)
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.splitlines() == [f"working: {k}% after {k} s" for k in (11, 22, 44, 88)]
+    assert err.splitlines() == [f"working: {k}% after {k} s" for k in (10, 20, 40, 80)]
 
 
 def test_a_bar_on_a_terminal_after_a_while(capsys, monkeypatch):

@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.studies import small_study
 from umbilical import load, simulate
-from umbilical.faces.study import document as study_document
+from umbilical.faces import study as study_face
 from umbilical.studies.engines import threads
 from umbilical.studies.load import load_study
 from umbilical.studies.results import open_study
@@ -147,7 +147,7 @@ def test_null_of_a_run_that_diverged_is_told_from_null_of_none(result):
     found = open_study(result)
     found.data["status"][:4, 0] = STATUSES.index("DIVERGED")
     found.data["status"][:, 1] = STATUSES.index("REFUSED")
-    metrics = study_document(found)["metrics"]["tip_peak"]
+    metrics = study_face.FACE.document(found)["metrics"]["tip_peak"]
     assert [metrics[arm]["q95"]["status"] for arm in found.arms] == ["infinite", "none"]
     assert metrics["PD"]["median"]["status"] == "infinite"
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import typer.main
 
-from umbilical.cli.app import app
+from umbilical.cli.app import make_app
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -21,7 +21,7 @@ QUICK = ("certificates.md",)
 """Pages of few seconds."""
 
 each_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-COMMANDS = {command.name: command for command in typer.main.get_command(app).commands.values()}  # type: ignore[attr-defined]
+COMMANDS = {command.name: command for command in typer.main.get_command(make_app()).commands.values()}  # type: ignore[attr-defined]
 
 
 def with_blocks() -> Iterator[object]:

@@ -18,11 +18,11 @@ import typer
 
 from tests.fuzz.inputs import Case
 from umbilical.cli import main
-from umbilical.cli.app import app
+from umbilical.cli.app import make_app
 from umbilical.cli.output import EXIT_CODES
 from umbilical.engine import simulate
 
-_COMMAND = typer.main.get_command(app)
+_COMMAND = typer.main.get_command(make_app())
 """Built once: typer takes longer for that than most inputs take."""
 SECONDS = 120
 """After which an input is said to hang; on a processor with nothing else to do the slowest takes a few."""

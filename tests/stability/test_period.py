@@ -10,7 +10,7 @@ import pytest
 import umbilical
 from umbilical.control.cascade import Cascade
 from umbilical.errors import ScenarioError
-from umbilical.faces.margins import conclusion
+from umbilical.faces.margins import FACE
 from umbilical.interop.python_control import to_control
 from umbilical.stability.grid import (
     GridDifference,
@@ -132,7 +132,7 @@ def test_eigenvalues_of_the_closed_matrix_are_part_of_the_report():
     assert not disagreeing.agrees
     assert MatrixCheck(8, 100, (Counted("as it is", 2, 0, 2),)).agrees
     assert not replace(found, check=disagreeing).resolved
-    assert conclusion(replace(found, check=disagreeing)).decision == "UNRESOLVED"
+    assert FACE.conclusion(replace(found, check=disagreeing)).decision == "UNRESOLVED"
 
 
 @pytest.mark.parametrize(("length", "damping"), [(100.0, 1.0), (1000.0, 0.4), (3000.0, 10.0)])
@@ -163,8 +163,8 @@ def test_few_grids_that_disagree_leave_margins_unresolved_and_few_that_agree_pro
     close, far = (replace(found.grids[-1], differs=GridDifference("delay", 1.0, 1.0, size)) for size in (0.01, 0.3))
     assert replace(found, grids=(close,)).resolved is None
     apart = replace(found, grids=(far,))
-    assert (apart.resolved, conclusion(apart).decision) == (False, "UNRESOLVED")
-    assert f"{far.elements} elements" in conclusion(apart).headline
+    assert (apart.resolved, FACE.conclusion(apart).decision) == (False, "UNRESOLVED")
+    assert f"{far.elements} elements" in FACE.conclusion(apart).headline
 
 
 def test_a_controller_in_the_place_of_lengths_is_told_where_it_goes():

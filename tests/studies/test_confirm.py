@@ -44,15 +44,15 @@ def test_the_share_of_a_gaussian_sea_is_that_of_its_closed_form() -> None:
     [(0.17, "HOLDS", "is CONFIRMED"), (0.206, "UNRESOLVED", "NOT YET CONFIRMED"), (0.26, "DOES_NOT_HOLD", "NOT CONF")],
 )
 def test_the_verdict_follows_from_the_interval(rms: float, decision: str, words: str) -> None:
-    verdict = confirmation.conclusion(found_at(rms))
+    verdict = confirmation.FACE.conclusion(found_at(rms))
     assert (verdict.decision, words in verdict.headline) == (decision, True)
 
 
 def test_slack_in_every_block_is_a_verdict_too() -> None:
     found = found_at(5.0)
     assert found.reached[0].too_many
-    assert confirmation.conclusion(found).decision == "DOES_NOT_HOLD"
-    assert "1 of" not in confirmation.text(found)
+    assert confirmation.FACE.conclusion(found).decision == "DOES_NOT_HOLD"
+    assert "1 of" not in confirmation.FACE.text(found)
 
 
 def test_a_smooth_peak_between_samples_is_found() -> None:
@@ -71,7 +71,7 @@ def test_a_rough_sea_on_the_rope_passes_what_a_calm_one_keeps() -> None:
     calm, rough = (
         module.confirm(on_the_rope(operation, height=h, **how), criteria, h, settled=200.0, seeds=3) for h in (0.5, 6.0)
     )
-    assert confirmation.conclusion(calm).decision == "HOLDS"
+    assert confirmation.FACE.conclusion(calm).decision == "HOLDS"
     assert calm.confirmed_height > 0.5
     assert [each.exceeded for each in rough.reached] == [3, 0, 3]
-    assert confirmation.conclusion(rough).decision == "DOES_NOT_HOLD"
+    assert confirmation.FACE.conclusion(rough).decision == "DOES_NOT_HOLD"

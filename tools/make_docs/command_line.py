@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from writing import code, page, table
 
-from umbilical.cli.app import app
+from umbilical.cli.app import make_app
 from umbilical.cli.output import EXIT_CODES
 
 FILES = Path(__file__).with_suffix(".md")
@@ -24,13 +24,13 @@ def command_line() -> str:
         "overwritten without `--force`; files appear complete or not at all. `--json` prints exactly one object on "
         "stdout; news and errors go to stderr. `--debug` anywhere shows the traceback of an error.",
         FILES.read_text(encoding="utf-8").strip(),
-        *(section(command.callback) for command in app.registered_commands if command.callback),
+        *(section(str(it.name), it.callback) for it in make_app().registered_commands if it.callback),
         "## Exit codes",
         table(("code", "meaning"), ((str(number), text) for number, text in EXIT_CODES.items())),
     )
 
 
-def section(command: Callable[..., Any]) -> str:
+def section(name: str, command: Callable[..., Any]) -> str:
     """A command: what it does, its arguments and options, notes and examples.
 
     In its docstring a line with ``\\b`` opens the examples, and an empty one closes them.
@@ -39,7 +39,7 @@ def section(command: Callable[..., Any]) -> str:
     examples, _, notes = rest.partition("\n\n")
     lines = [line.strip() for line in examples.splitlines()[1:]]
     options = list(parameters(command))
-    parts = [f"## `umbilical {command.__name__.replace('_', '-')}`", text, notes]
+    parts = [f"## `umbilical {name}`", text, notes]
     parts.append(table(("argument or option", "meaning"), options) if options else "")
     parts.append("\n".join(["```bash", *lines, "```"]) if lines else "")
     return "\n\n".join(filter(None, parts))

@@ -27,7 +27,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             from umbilical.cli import app, terminal
 
             terminal.occupy_closed_streams()
-            return app.run_command(list(sys.argv[1:] if arguments is None else arguments), came)
+            return app.execute(list(sys.argv[1:] if arguments is None else arguments), came)
         except KeyboardInterrupt:  # while modules were imported, or while an error was explained
             if sys.stderr is not None:
                 sys.stderr.write("umbilical: interrupted\n")

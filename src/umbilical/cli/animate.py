@@ -7,17 +7,18 @@ from typing import Annotated
 
 from typer import Argument, Option
 
+from umbilical.cli.options import Force
 from umbilical.cli.output import print_result
 from umbilical.cli.targets import check_target
 
 
-def animate(
+def animate_command(
     file: Annotated[Path, Argument(help="A .nc result of a run.")],
     compare: Annotated[
         Path | None, Option("--compare", metavar="FILE", help="Another result, on the same clock.")
     ] = None,
     out: Annotated[Path | None, Option("--out", "-o", metavar="FILE", help="An .html file.")] = None,
-    force: Annotated[bool, Option("--force", help="Replace an existing file.")] = False,
+    force: Force = False,
 ) -> None:
     """Write one HTML file that plays a run in any browser, without network.
 

@@ -5,33 +5,15 @@ from __future__ import annotations
 import os
 import re
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from copy import copy
+from importlib import import_module
 from typing import Annotated
 
 import typer
-from typer.main import get_command_name
 
 from umbilical import __version__
-from umbilical.cli.animate import animate
-from umbilical.cli.certify import certify
-from umbilical.cli.design import design
-from umbilical.cli.doctor import doctor
-from umbilical.cli.export import export
-from umbilical.cli.margins import margins
-from umbilical.cli.operate import lower, operate
 from umbilical.cli.output import EXIT_CODES, print_json, print_result, refusal, report
-from umbilical.cli.plot import plot
-from umbilical.cli.presets import examples, presets, schema
-from umbilical.cli.reproduce import reproduce
-from umbilical.cli.run import run
-from umbilical.cli.show import compare, show
-from umbilical.cli.snap import snap
-from umbilical.cli.sweep import member, sweep
-from umbilical.cli.tune import tune
-from umbilical.cli.verify import verify
-from umbilical.cli.warm_up import warm_up
 from umbilical.errors import OutputError, UmbilicalError
 
 # typer brings its own copy of click and exports only this child of click's UsageError.
@@ -42,40 +24,31 @@ _NO_CHOICE = re.compile("'([^']*)' is not one of (.*)")
 
 _CODES = "\n".join(f"  {code:<4} {meaning}" for code, meaning in EXIT_CODES.items())
 
-app = typer.Typer(
-    name="umbilical",
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-    no_args_is_help=True,
-    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    epilog=f"\b\nexit codes\n{_CODES}",
-)
+COMMANDS = {
+    "run": "run", "sweep": "sweep", "member": "sweep", "tune": "tune", "show": "show", "compare": "show",
+    "export": "export", "plot": "plot", "animate": "animate", "certify": "certify", "reproduce": "reproduce",
+    "margins": "margins", "design": "design", "operate": "operate", "lower": "operate", "snap": "snap",
+    "presets": "presets", "examples": "presets", "schema": "presets", "doctor": "doctor", "warm-up": "warm_up",
+    "verify": "verify",
+}  # fmt: skip
+"""Commands, and the file of each: there ``warm-up`` is ``warm_up_command``."""
 
-for command in (
-    run,
-    sweep,
-    member,
-    tune,
-    show,
-    compare,
-    export,
-    plot,
-    animate,
-    certify,
-    reproduce,
-    margins,
-    design,
-    operate,
-    lower,
-    snap,
-    presets,
-    examples,
-    schema,
-    doctor,
-    warm_up,
-    verify,
-):
-    app.command()(command)
+
+def make_app(names: Iterable[str] = COMMANDS) -> typer.Typer:
+    """The command line with these commands; each takes some milliseconds."""
+    app = typer.Typer(
+        name="umbilical",
+        callback=umbilical,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        no_args_is_help=True,
+        context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+        epilog=f"\b\nexit codes\n{_CODES}",
+    )
+    for name in names:
+        module = import_module(f"umbilical.cli.{COMMANDS[name]}")
+        app.command(name)(getattr(module, f"{name.replace('-', '_')}_command"))
+    return app
 
 
 def _version(wanted: bool) -> None:
@@ -84,7 +57,6 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def umbilical(
     version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Its version.")] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Tracebacks of errors; may stand anywhere.")] = False,
@@ -104,12 +76,12 @@ def umbilical(
     """
 
 
-def run_command(given: list[str], signals: Sequence[int] = ()) -> int:
+def execute(given: list[str], signals: Sequence[int] = ()) -> int:
     """Run the words of one command line; whatever error comes while ``signals`` holds one is an interruption."""
     # Read when numpy is first imported: our matrices are small, and threads cost them more than they bring.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if _COMPLETION in os.environ:  # a shell asks what could come next; typer answers and exits
-        app(prog_name="umbilical")
+        make_app()(prog_name="umbilical")
     try:
         return _invoke([word for word in given if word != "--debug"])
     except BrokenPipeError:  # the reader has gone
@@ -122,20 +94,12 @@ def run_command(given: list[str], signals: Sequence[int] = ()) -> int:
 
 def _invoke(words: list[str]) -> int:
     """Parse and call, without typer's own handling of errors: ours says more."""
-    command = typer.main.get_command(_with_commands(words[:1]))
+    command = typer.main.get_command(make_app([name for name in words[:1] if name in COMMANDS] or COMMANDS))
     try:
         with command.make_context("umbilical", words) as context:
             return command.invoke(context) or 0
     except typer.Exit as done:
         return done.exit_code
-
-
-def _with_commands(first: list[str]) -> typer.Typer:
-    """Only the command that is called, if it is one: typer takes a millisecond for each."""
-    named = [it for it in app.registered_commands if it.callback and [get_command_name(it.callback.__name__)] == first]
-    chosen = copy(app)
-    chosen.registered_commands = named or app.registered_commands
-    return chosen
 
 
 def _explain(error: BaseException, *, as_json: bool) -> int:

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from umbilical.cli.conclusion import conclude_result
+from umbilical.cli.loading import load_scenario
 from umbilical.cli.options import Changes, Force, Json, Plot, Source
-from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, check_target, draw_files
+from umbilical.cli.output import conclude
+from umbilical.cli.targets import draw_files
 
 if TYPE_CHECKING:
     from umbilical.certificate import Certificate
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from umbilical.studies.audit import Audit
 
 
-def certify(
+def certify_command(
     scenario: Source,
     changes: Changes = None,
     audit: Annotated[bool, Option("--audit", help="Simulate the ideal and the real loop, and compare.")] = False,
@@ -35,17 +35,15 @@ def certify(
     The ideal loop has no observers, no sampling and perfect thrusters. The exit code is 7 when nothing is certified,
     and then there is nothing that --audit could simulate against: the second line says what was proved to mend it.
     """
-    chosen = load_changed(scenario, changes or [])
-    check_target(plot, PICTURES, force=force)
-    found, checked = _certify(chosen, audit)
+    found, checked = _certify(load_scenario(scenario, changes), audit)
     files = draw_files(lambda: found.plot(audit=checked), plot, force=force)
-    return conclude_result(found, checked, files=files, as_json=as_json)
+    return conclude(found, checked, files=files, as_json=as_json)
 
 
 def _certify(scenario: Scenario, audit: bool) -> tuple[Certificate, Audit | None]:
-    from umbilical.certificate import certify as prove
+    from umbilical.certificate import certify
 
-    certificate = prove(scenario)
+    certificate = certify(scenario)
     if not audit or not certificate.holds:
         return certificate, None
     from umbilical.cli.progress import announce_compilation, bar

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from umbilical.cli.output import report
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.cli.terminal import report
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario
@@ -16,7 +16,7 @@ LONGEST = 3.0 * 3600.0
 """Seconds of a seed that count at the most; a criterion of a longer time is extrapolated as one of a shorter is."""
 
 
-def confirm(found: Operability, height: float, seeds: int, jobs: int | None) -> Confirmation:
+def confirm_on_the_rope(found: Operability, height: float, seeds: int, jobs: int | None) -> Confirmation:
     """Run seeds of the sea of the lowest limit at a height, with news on stderr.
 
     Raises:
@@ -25,7 +25,7 @@ def confirm(found: Operability, height: float, seeds: int, jobs: int | None) -> 
     import numpy as np
 
     from umbilical.screening.on_the_rope import SETTLED, on_the_rope
-    from umbilical.studies.confirm import confirm as run
+    from umbilical.studies.confirm import confirm
     from umbilical.studies.engines import default_jobs
 
     d, p, h = found.worst
@@ -39,7 +39,9 @@ def confirm(found: Operability, height: float, seeds: int, jobs: int | None) -> 
     report(f"confirming at {where}: {seeds} seeds of {scenario.duration:.0f} s, {cost(scenario, seeds, workers)}")
     announce_compilation(scenario)
     with bar("seeds of the sea") as advance:
-        return run(scenario, found.criteria, height, settled=SETTLED, seeds=seeds, workers=workers, progress=advance)
+        return confirm(
+            scenario, found.criteria, height, settled=SETTLED, seeds=seeds, workers=workers, progress=advance
+        )
 
 
 def cost(scenario: Scenario, runs: int, workers: int) -> str:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from typer import BadParameter, Option
 
-from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Json, Plot, Source, Thrust, number_list
+from umbilical.cli.loading import load_scenario
+from umbilical.cli.options import Changes, Force, Json, Plot, ScenarioOut, Source, Thrust, number_list
+from umbilical.cli.output import conclude
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, SCHEMA_LINE, check_target, draw_files, schema_beside
+from umbilical.cli.targets import draw_files, write_scenario
 
 if TYPE_CHECKING:
     from umbilical.synthesis.iterate import Limits
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 Objective = Literal["ringdown", "rejection", "both"]
 
 
-def design(
+def design_command(
     scenario: Source,
     changes: Changes = None,
     objective: Annotated[Objective, Option("--objective", help="What the gains shall serve.")] = "both",
@@ -36,7 +35,7 @@ def design(
         Option("--limits", metavar="NAME=VALUE,...", help="voltage (V), speed (rad/s), chatter (V), noise (V)."),
     ] = None,
     operating_thrust: Thrust = None,
-    out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Store the new scenario.")] = None,
+    out: ScenarioOut = None,
     plot: Plot = None,
     as_json: Json = False,
     force: Force = False,
@@ -51,31 +50,22 @@ def design(
 
     Exit code 7: some margin or limit is not kept; what was found is told all the same.
     """
-    chosen = load_changed(scenario, changes or [])
-    check_target(out, ("toml",), force=force)
-    check_target(plot, PICTURES, force=force)
-    from umbilical.synthesis.design import design as compute
+    from umbilical.synthesis.design import design
     from umbilical.synthesis.score import Demands
 
+    chosen = load_scenario(scenario, changes)
     if not 0.0 <= gain <= 100.0 or not 0.0 <= phase < 90.0 or not 0.0 <= delay <= 1000.0:
         raise BadParameter("margins are 0 to 100 dB, 0 to 90 degrees and 0 to 1000 periods", param_hint="--*-margin")
     demands = Demands(10.0 ** (gain / 20.0), math.radians(phase), delay)
     choice = number_list(periods, "--periods", above=0.0, what="times above 0 s, such as 0.0005,0.001")
     announce_compilation()
     with bar("designing") as advance:
-        found = compute(
+        found = design(
             chosen, objective, inner=inner, periods=choice, demands=demands, limits=_limits(limits),
             operating_thrust=operating_thrust, progress=advance,
         )  # fmt: skip
-    written = {}
-    if out:
-        from umbilical import files
-
-        text = SCHEMA_LINE + found.after.scenario.to_toml()
-        written["scenario"] = str(files.write(out, text.encode(), force=force))
-        written |= schema_beside(out)
-    written |= draw_files(found.plot, plot, force=force)
-    return conclude_result(found, files=written, as_json=as_json)
+    written = write_scenario(out, found.after.scenario.to_toml(), force=force) if out else {}
+    return conclude(found, files=written | draw_files(found.plot, plot, force=force), as_json=as_json)
 
 
 def _limits(words: str | None) -> Limits:

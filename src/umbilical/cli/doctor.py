@@ -27,9 +27,7 @@ PARTNERS = (
 )
 
 
-def doctor(
-    as_json: Json = False,
-) -> int:
+def doctor_command(as_json: Json = False) -> int:
     """Show versions, folders and cores, to send along with a question.
 
     \b

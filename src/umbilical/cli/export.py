@@ -5,17 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
-from typer import Argument, BadParameter, Option
+from typer import BadParameter, Option
 
-from umbilical.cli.options import Changes, Force
+from umbilical.cli.loading import load_scenario
+from umbilical.cli.options import Changes, Force, source
 from umbilical.cli.output import print_result
-from umbilical.cli.run import load_changed
 
 _RESULTS = ("csv", "mat")
 
 
-def export(
-    source: Annotated[str, Argument(help="A .nc result; for c and fmu also a .toml scenario or a preset's name.")],
+def export_command(
+    file: Annotated[str, source("A .nc result; for c and fmu also a .toml scenario or a preset's name.", "scenario")],
     to: Annotated[
         Literal["csv", "mat", "c", "fmu"],
         Option("--to", help="csv: channels over time; mat: every array; c, fmu: the scenario's controller."),
@@ -44,10 +44,10 @@ def export(
     """
     if to in _RESULTS:
         _refuse_options({"--set": changes, "--prefix": prefix, "--hold": hold}, to)
-        _export_result(Path(source), to, out, force)
+        _export_result(Path(file), to, out, force)
         return
-    scenario = load_changed(source, changes or ())
-    stem = out or Path(f"{Path(source).stem}-controller" if to == "c" else f"{Path(source).stem}.fmu")
+    scenario = load_scenario(file, changes)
+    stem = out or Path(f"{Path(file).stem}-controller" if to == "c" else f"{Path(file).stem}.fmu")
     if to == "c":
         from umbilical.interop.c_code import to_c
 

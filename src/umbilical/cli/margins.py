@@ -6,18 +6,17 @@ from typing import Annotated
 
 from typer import Option
 
-from umbilical.cli.conclusion import conclude_result
+from umbilical.cli.loading import load_scenario, own_controller
 from umbilical.cli.options import Changes, Force, Json, Own, Plot, Source, Thrust, number_list
-from umbilical.cli.output import report
+from umbilical.cli.output import conclude, report
 from umbilical.cli.progress import bar
-from umbilical.cli.run import load_changed, own_controller
-from umbilical.cli.targets import PICTURES, check_target, draw_files
+from umbilical.cli.targets import draw_files
 
 GRIDS, FINEST = (32, 64, 128), 256
 """Elements of the grids that are asked where none are named, and of the last one where those do not agree."""
 
 
-def margins(
+def margins_command(
     scenario: Source,
     changes: Changes = None,
     lengths: Annotated[
@@ -50,15 +49,15 @@ def margins(
     at every length, or unresolved: exact cable, grids and eigenvalues do not say the same, or a controller does not do
     what its linearisation does.
     """
-    chosen = load_changed(scenario, changes or [], controller)
-    check_target(plot, PICTURES, force=force)
-    from umbilical.stability.margins import margins as compute
+    from umbilical.stability.margins import margins
+
+    chosen = load_scenario(scenario, changes, controller)
 
     elements = GRIDS if grid is None else [round(number) for number in number_list(grid, "--grid") if number]
     finest = FINEST if grid is None else 0
     own = own_controller(controller, chosen)
     with bar("margins") as advance:
-        found = compute(
+        found = margins(
             chosen,
             number_list(lengths, "--lengths") or None,
             operating_thrust,
@@ -70,4 +69,4 @@ def margins(
     if plot and found.doubt:
         report(f"{plot}: not drawn, there are no margins to draw")
         plot = None
-    return conclude_result(found, files=draw_files(found.plot, plot, force=force), as_json=as_json)
+    return conclude(found, files=draw_files(found.plot, plot, force=force), as_json=as_json)

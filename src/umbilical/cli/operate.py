@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
-from typer import Argument, BadParameter, Option
+from typer import BadParameter, Option
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
-from umbilical.cli.targets import PICTURES, check_target, draw_files
-from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.text import text_table
+from umbilical.cli.loading import load_changed_operation
+from umbilical.cli.options import Changes, Force, Jobs, Json, Plot, free, source, within
+from umbilical.cli.output import conclude
+from umbilical.cli.progress import bar
+from umbilical.cli.targets import draw_files
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from umbilical.screening import Lowering, Operability, Operation
+    from umbilical.screening import Operability, Weather
 
-Source = Annotated[str, Argument(help="An operation that comes along (work-class), or a .toml file.")]
+OperationSource = Annotated[str, source("An operation that comes along (work-class), or a .toml file.", "screening")]
 RANGE = "FROM:TO:COUNT, or values with commas"
 Criterion = Annotated[
     list[str] | None,
@@ -40,8 +40,8 @@ Confirm = Annotated[
 ]
 
 
-def operate(
-    operation: Source,
+def operate_command(
+    operation: OperationSource,
     depth: Annotated[str, Option("--depth", metavar="M", help=f"Cable paid out: {RANGE}.")] = "100:3000:30",
     period: Annotated[str, Option("--period", metavar="S", help=f"Peak period Tp: {RANGE}.")] = "5:15:11",
     heading: Annotated[
@@ -57,7 +57,9 @@ def operate(
     ] = None,
     needed: Annotated[float, Option("--needed", metavar="H", help="With a hindcast: hours the operation takes.")] = 3.0,
     changes: Changes = None,
-    out: Annotated[Path | None, Option("--out", metavar="FILE", help="Store the limits: .nc.")] = None,
+    out: Annotated[
+        Path | None, Option("--out", metavar="FILE", help="Store the limits: .nc.", callback=free("nc"))
+    ] = None,
     plot: Plot = None,
     as_json: Json = False,
     force: Force = False,
@@ -79,83 +81,34 @@ def operate(
     """
     import numpy as np
 
-    from umbilical.screening import operate as limits
+    from umbilical.screening import operate, read_seas, weather
     from umbilical.screening.criteria import USUAL, read_criteria
 
-    check_target(plot, PICTURES, force=force)
-    check_target(out, ("nc",), force=force)
     criteria = read_criteria(criterion or USUAL)
-    axes = {
-        "depth": values(depth, "--depth", 1.0, 12000.0),
-        "period": values(period, "--period", 2.0, 30.0),
-        "heading": np.radians(values(heading, "--heading", -360.0, 360.0)),
-    }
-    from umbilical.cli.progress import bar
-
-    loaded = _load(operation, changes)
+    depths, periods = values(depth, "--depth", 1.0, 12000.0), values(period, "--period", 2.0, 30.0)
+    headings = np.radians(values(heading, "--heading", -360.0, 360.0))
+    loaded = load_changed_operation(operation, changes)
+    if seas and height is not None:
+        raise BadParameter("--seas has heights of its own", param_hint="'--height'")
+    if seas and confirm is not None:
+        raise BadParameter("one sea is confirmed: --period, --heading and --depth", param_hint="'--confirm'")
     if seas:
-        if height is not None:
-            raise BadParameter("--seas has heights of its own", param_hint="'--height'")
-        if confirm is not None:
-            raise BadParameter("one sea is confirmed: --period, --heading and --depth", param_hint="'--confirm'")
-        files_of = {"out": out, "plot": plot, "as_json": as_json, "force": force}
-        return _windows(loaded, seas, criteria, axes, _within(needed, "--needed", 0.01, 1e4), files_of)
+        whole, lasts = read_seas(seas, loaded.sea.peakedness), 3600.0 * within(needed, "--needed", 0.01, 1e4)
+        with bar("looking for the limits") as advance:
+            windows = weather(loaded, criteria, whole, depth=depths, heading=headings, needed=lasts, progress=advance)
+        return conclude(windows, files=_store(windows, out, plot, force), as_json=as_json)
     with bar("looking for the limits") as advance:
-        found = limits(loaded, criteria, **axes, progress=advance)
-    files = _store(found, out, plot, force)
+        found = operate(loaded, criteria, depth=depths, period=periods, heading=headings, progress=advance)
+    files, runs = _store(found, out, plot, force), None
     if confirm is not None and (height is None or found.holds(height)):
-        return _confirmed(found, height, confirm, jobs, files, as_json)
-    return conclude(
-        _workable(found, height),
-        text=lambda: "\n".join(_report(found)),
-        document=lambda: {**found.to_dict(), "height": height},
-        files=files,
-        as_json=as_json,
-    )
+        from umbilical.cli.confirm import confirm_on_the_rope
+
+        runs = confirm_on_the_rope(found, height or float(found.limit[found.worst]), confirm, jobs)
+    return conclude(found, height, runs, files=files, as_json=as_json)
 
 
-def _confirmed(
-    found: Operability, height: float | None, seeds: int, jobs: int | None, files: dict[str, str], as_json: bool
-) -> int:
-    """Hold the height that was asked for, or the lowest limit, against the rope; the verdict is that of its runs."""
-    from umbilical.cli.confirm import confirm
-    from umbilical.faces import confirmation
-
-    runs = confirm(found, height or float(found.limit[found.worst]), seeds, jobs)
-    verdict = confirmation.conclusion(runs)
-    return conclude(
-        Conclusion(verdict.decision, f"{verdict.headline}; screening: {found.summary()}"),
-        text=lambda: "\n".join([confirmation.text(runs), "", "the frequency domain:", *_report(found)]),
-        document=lambda: {**found.to_dict(), "height": height, "confirmation": confirmation.document(runs)},
-        files=files,
-        as_json=as_json,
-    )
-
-
-def _windows(
-    operation: Operation, path: Path, criteria: Any, axes: dict[str, Any], needed: float, options: dict[str, Any]
-) -> int:
-    """Hold the seas of a file against the limits."""
-    from umbilical.cli.progress import bar
-    from umbilical.screening import read_seas, weather
-
-    seas = read_seas(path, operation.sea.peakedness)
-    with bar("looking for the limits") as advance:
-        found = weather(
-            operation, criteria, seas, depth=axes["depth"], heading=axes["heading"], needed=3600.0 * needed,
-            progress=advance,
-        )  # fmt: skip
-    return conclude(
-        Conclusion("NOT_ASKED", found.summary()),
-        text=lambda: "\n".join(_report(found.found)),
-        document=found.to_dict,
-        files=_store(found, options["out"], options["plot"], options["force"]),
-        as_json=options["as_json"],
-    )
-
-
-def lower(
-    operation: Source,
+def lower_command(
+    operation: OperationSource,
     height: Annotated[float, Option("--height", metavar="HS", help="Significant wave height, m.")] = 2.0,
     period: Annotated[float, Option("--period", metavar="S", help="Peak period Tp, s.")] = 8.0,
     heading: Annotated[float, Option("--heading", metavar="DEG", help="Direction the waves go to.")] = 135.0,
@@ -178,32 +131,22 @@ def lower(
     """
     import numpy as np
 
-    from umbilical.cli.progress import bar
-    from umbilical.screening import lower as descend
+    from umbilical.screening import lower
     from umbilical.sea import Spectrum
 
-    check_target(plot, PICTURES, force=force)
-    loaded = _load(operation, changes)
-    depths = np.sort(values(depth, "--depth", 1.0, 12000.0))
+    loaded = load_changed_operation(operation, changes)
+    depths = values(depth, "--depth", 1.0, 12000.0)
     if depths.size < 2:
         raise BadParameter("a descent needs two depths or more, e.g. 100:3000:30", param_hint="'--depth'")
     speeds = values(speed, "--speed", 1e-3, 20.0)
-    sea = Spectrum(
-        _within(height, "--height", 0.01, 20.0), _within(period, "--period", 2.0, 30.0), loaded.sea.peakedness
-    )
+    sea = Spectrum(within(height, "--height", 0.01, 20.0), within(period, "--period", 2.0, 30.0), loaded.sea.peakedness)
     with bar("computing the descents") as advance:
-        found = descend(loaded, sea, heading=np.radians(heading), depth=depths, speed=speeds, progress=advance)
-    return conclude(
-        _acceptable(found, risk),
-        text=lambda: "\n".join(_descents(found)),
-        document=lambda: {**found.to_dict(), "accepted_risk": risk},
-        files=_store(found, None, plot, force),
-        as_json=as_json,
-    )
+        found = lower(loaded, sea, heading=np.radians(heading), depth=depths, speed=speeds, progress=advance)
+    return conclude(found, risk, files=draw_files(found.plot, plot, force=force), as_json=as_json)
 
 
 def values(text: str, option: str, low: float, high: float) -> np.ndarray:
-    """Numbers of ``FROM:TO:COUNT`` or of a list with commas, all within bounds.
+    """Numbers of ``FROM:TO:COUNT`` or of a list with commas, all within bounds, rising.
 
     >>> values("100:300:3", "--depth", 1.0, 1e4).tolist()
     [100.0, 200.0, 300.0]
@@ -221,95 +164,10 @@ def values(text: str, option: str, low: float, high: float) -> np.ndarray:
             found = np.array([float(part) for part in text.split(",")])
     except ValueError as error:
         raise BadParameter(f"{text}: {RANGE}, e.g. {low:g}:{high:g}:10", param_hint=f"'{option}'") from error
-    for number in found:
-        _within(float(number), option, low, high)
-    return np.unique(found)
+    return np.unique([within(float(number), option, low, high) for number in found])
 
 
-def _within(number: float, option: str, low: float, high: float) -> float:
-    if not low <= number <= high:
-        raise BadParameter(f"{number:g}: from {low:g} to {high:g}", param_hint=f"'{option}'")
-    return number
-
-
-def _load(operation: str, changes: list[str] | None) -> Operation:
-    from umbilical.scenario.document import assignment
-    from umbilical.screening import load_operation
-
-    return load_operation(operation, dict(map(assignment, changes or [])))
-
-
-def _workable(found: Operability, height: float | None) -> Conclusion:
-    """Whether a sea is workable everywhere, if that was asked; else the lowest limit."""
-    if height is None:
-        return Conclusion("NOT_ASKED", found.summary())
-    holds = found.holds(height)
-    where = f"over all {found.limit.size} depths, periods and headings" if found.limit.size > 1 else "there"
-    headline = f"Hs {height:g} m is {'workable' if holds else 'NOT workable'} {where}; {found.summary()}"
-    return Conclusion("HOLDS" if holds else "DOES_NOT_HOLD", headline)
-
-
-def _acceptable(found: Lowering, risk: float | None) -> Conclusion:
-    """Whether the best speed keeps the accepted risk, if one was given."""
-    if risk is None:
-        return Conclusion("NOT_ASKED", found.summary())
-    holds = bool(found.risk[found.best] <= risk)
-    headline = f"{found.summary()}; {'within' if holds else 'ABOVE'} the accepted {risk:g}"
-    return Conclusion("HOLDS" if holds else "DOES_NOT_HOLD", headline)
-
-
-def _report(found: Operability) -> list[str]:
-    """A table of the worst heading, thinned to a screen, and what the limits do not know."""
-    import numpy as np
-
-    rows, columns = _thinned(found.depth.size), _thinned(found.period.size)
-    worst, steepest = found.limit.min(axis=2), found.steepest
-    head = ("limiting Hs [m] at", *(f"Tp {found.period[j]:.3g} s" for j in columns), "T1")
-    body = [
-        (
-            f"{found.depth[i]:.4g} m",
-            *(f"{'>' if steepest[i, j] else ''}{worst[i, j]:.2f}" for j in columns),
-            f"{found.axial_period[i]:.2f} s",
-        )
-        for i in rows
-    ]
-    headings = ", ".join(f"{angle:.0f}" for angle in np.degrees(found.heading))
-    shown, all_ = f"{len(rows)} x {len(columns)}", f"{found.depth.size} depths x {found.period.size} periods"
-    return [
-        text_table([head, *body], right=list(range(1, len(head)))),
-        f"  worst of the headings {headings} deg; T1: longest axial period of cable and body",
-        *("  >: no limit below the steepest sea of the period, a seventh of its wavelength",) * bool(steepest.any()),
-        *(f"  shown: {shown} of {all_}; --json and --out have all",) * (worst.size > len(rows) * len(columns)),
-        *(f"  note: {notice}" for notice in found.notices()),
-        f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}",
-    ]
-
-
-def _descents(found: Lowering) -> list[str]:
-    rows = [("speed", "probability of slack", "duration", "least mean tension")]
-    for place in _thinned(found.speed.size):
-        rows.append((
-            f"{found.speed[place]:.3g} m/s", f"{found.risk[place]:.2g}",
-            f"{(found.depth[-1] - found.depth[0]) / found.speed[place] / 60.0:.3g} min",
-            f"{found.mean_tension[place].min():.4g} N",
-        ))  # fmt: skip
-    waiting = f"  where to wait: {found.waiting_depth:.4g} m, outside the resonance"
-    notes = (f"  note: {notice}" for notice in found.notices())
-    return [
-        text_table(rows, right=[1, 2, 3]),
-        waiting,
-        *notes,
-        f"  assumed: {', '.join(found.operation.assumed) or 'nothing'}",
-    ]
-
-
-def _thinned(count: int, most: int = 11) -> list[int]:
-    import numpy as np
-
-    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)).tolist()
-
-
-def _store(found: Any, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
+def _store(found: Operability | Weather, out: Path | None, plot: Path | None, force: bool) -> dict[str, str]:
     files = {}
     if out:
         from umbilical.files import write

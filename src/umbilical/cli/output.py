@@ -14,6 +14,7 @@ from umbilical.cli.terminal import (
 from umbilical.errors import ScenarioError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
 from umbilical.faces.text import finite_only
+from umbilical.result import ResultFaces
 
 EXIT_CODES = {
     0: "completed",
@@ -31,6 +32,27 @@ EXIT_CODES = {
 def print_json(document: Mapping[str, Any]) -> None:
     """One JSON object, to stdout."""
     print_result(json.dumps(finite_only(document), indent=2, allow_nan=False))
+
+
+def conclude(result: ResultFaces, *beside: Any, files: Mapping[str, Any] | None = None, as_json: bool) -> int:
+    """Print a result by its own face: first line, ``--json`` and exit code follow from one verdict.
+
+    Args:
+        result: what was found.
+        beside: what its face takes with it, such as an audit.
+        files: written ones by role.
+        as_json: whether to print one JSON object instead of text.
+
+    Returns:
+        The exit code.
+    """
+    verdict = result.face.conclusion(result, *beside)
+    if as_json:
+        print_json(verdict.document() | {"files": dict(files or {})} | result.face.to_dict(result, *beside))
+    else:
+        written = [f"  {role}: {path}" for role, path in (files or {}).items()]
+        print_result("\n".join([result.face.summary(result, *beside), *written]))
+    return verdict.exit_code
 
 
 def refusal(error: BaseException, text: str, code: int) -> dict[str, Any]:

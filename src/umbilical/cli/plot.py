@@ -23,7 +23,7 @@ Kind = Literal[
 ]  # fmt: skip
 
 
-def plot(
+def plot_command(
     file: Annotated[Path, Argument(help="A .nc result, of a run or of a study.")],
     kind: Annotated[
         Kind, Option("--kind", help="What to draw; shape, tension, snaps, watch of a rope; the last four of studies.")

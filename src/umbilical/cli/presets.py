@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from typer import Argument, Option
+from typer import Option
 
-from umbilical.cli.options import Force
+from umbilical.cli.options import Force, source
 from umbilical.cli.output import print_result
-from umbilical.cli.targets import SCHEMA_LINE, schema_beside
+from umbilical.cli.targets import write_scenario
 from umbilical.errors import FileError
 from umbilical.faces.text import text_table
 
@@ -18,8 +18,11 @@ if TYPE_CHECKING:
     from umbilical.scenario.presets import Presets
 
 
-def presets(
-    name: Annotated[str | None, Argument(help="Print this preset's text; all names if left out.")] = None,
+def presets_command(
+    name: Annotated[
+        str | None,
+        source("Print this preset's text; all names if left out.", "scenario", "studies", "screening"),
+    ] = None,
     copy: Annotated[
         tuple[str, Path] | None, Option("--copy", metavar="NAME FILE", help="Copy a preset to a file of yours.")
     ] = None,
@@ -35,20 +38,20 @@ def presets(
       umbilical presets --copy paper-robustness my-study.toml
       umbilical presets --copy work-class my-operation.toml
     """
-    if copy:
-        from umbilical import files
-
-        source, target = copy
-        verb, text = _find(source)
-        text = _marked(text, source, target)
-        scenario = verb == "run"
-        written = files.write(target, (SCHEMA_LINE + text if scenario else text).encode(), force=force)
-        beside = schema_beside(written) if scenario else {}
-        lines = [f"copied: {written}", *(f"  {role} for editors: {path}" for role, path in beside.items())]
-        print_result("\n".join(lines))
-        print_result(f"  next: change it; `umbilical show {target}`; `umbilical {verb} {target}`")
-    else:
+    if not copy:
         print_result(_find(name)[1] if name else _descriptions())
+        return
+    from umbilical import files
+
+    preset, target = copy
+    verb, text = _find(preset)
+    text, beside = _marked(text, preset, target), ""
+    if verb == "run":
+        written = write_scenario(target, text, force=force)
+        beside = f"  schema for editors: {written['schema']}\n" if "schema" in written else ""
+    else:
+        files.write(target, text.encode(), force=force)
+    print_result(f"copied: {target}\n{beside}  next: change it; `umbilical show {target}`; `umbilical {verb} {target}`")
 
 
 def _marked(text: str, source: str, target: Path) -> str:
@@ -60,7 +63,7 @@ def _marked(text: str, source: str, target: Path) -> str:
     return head + re.sub(r'^description = ("""|")', rf"\g<0>Copied from {source}. ", text, count=1, flags=re.MULTILINE)
 
 
-def examples(
+def examples_command(
     copy: Annotated[
         Path | None, Option("--copy", metavar="DIR", help="Copy them to a folder of yours, made if need be.")
     ] = None,
@@ -75,9 +78,10 @@ def examples(
     """
     from umbilical import files
 
+    installed = Path(__file__).parents[1] / "examples"
+    folder = installed if installed.is_dir() else Path(__file__).parents[3] / "examples"
     found = {
         path.relative_to(folder).as_posix(): path
-        for folder in [_examples()]
         for path in sorted(folder.rglob("*"))
         if path.suffix in (".py", ".ipynb")
     }
@@ -88,12 +92,6 @@ def examples(
         files.make_folder((copy / name).parent)
         files.write(copy / name, path.read_bytes(), force=force)
     print_result(f"copied: {len(found)} files to {copy}\n  next: python {copy / 'first_run.py'}")
-
-
-def _examples() -> Path:
-    """Where the scripts are: in the installed package, or beside its source."""
-    installed = Path(__file__).parents[1] / "examples"
-    return installed if installed.is_dir() else Path(__file__).parents[3] / "examples"
 
 
 def _purpose(path: Path) -> str:
@@ -132,16 +130,12 @@ def _descriptions() -> str:
 
     def described(presets: Presets) -> str:
         texts = {name: read_document(presets.text(name), name)["description"] for name in presets.names}
-        return text_table([(name, _first_sentence(text)) for name, text in texts.items()])
+        return text_table([(name, text.partition(" Source:")[0]) for name, text in texts.items()])
 
     return "\n\n".join(f"{kind}, for `umbilical {verb}`\n{described(own)}" for kind, (verb, own) in _kinds().items())
 
 
-def _first_sentence(text: str) -> str:
-    return text.partition(" Source:")[0]
-
-
-def schema(
+def schema_command(
     out: Annotated[Path | None, Option("--out", metavar="FILE.json", help="Write it to a file instead.")] = None,
     force: Force = False,
 ) -> None:

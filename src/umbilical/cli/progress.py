@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from time import perf_counter
 from typing import TYPE_CHECKING
 
@@ -24,65 +25,43 @@ PATIENCE_IN_LOGS = 10.0
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
     """A function that takes the share done, 0 to 1, and shows it on stderr: a bar on a terminal, lines elsewhere."""
-    terminal = sys.stderr is not None and sys.stderr.isatty()
-    shown = _Later(_Bar, PATIENCE) if terminal else _Later(_Lines, PATIENCE_IN_LOGS)
-    try:
-        yield lambda share: shown.move(what, share)
-    finally:
-        shown.close()
+    begun = perf_counter()
+    with ExitStack() as stack:
+        terminal = sys.stderr is not None and sys.stderr.isatty()
+        show = _bar(what, stack) if terminal else _lines(what)
+        yield lambda share: show(share, perf_counter() - begun)
 
 
-class _Later:
-    """A display that is made when work has taken longer than somebody's patience."""
+def _lines(what: str) -> Callable[[float, float], None]:
+    """Lines for a log: one after a while, and one whenever the time passed has doubled."""
+    due = PATIENCE_IN_LOGS
 
-    def __init__(self, display: type[_Bar] | type[_Lines], patience: float) -> None:
-        self._display, self._patience, self._begun = display, patience, perf_counter()
-        self._made: _Bar | _Lines | None = None
+    def show(share: float, passed: float) -> None:
+        nonlocal due
+        if passed >= due:
+            due = 2.0 * passed
+            report(f"{what}: {share:.0%} after {passed:.0f} s")
 
-    def move(self, what: str, share: float) -> None:
-        passed = perf_counter() - self._begun
-        if self._made is None and passed > self._patience:
-            self._made = self._display(what)
-        if self._made:
-            self._made.move(share, passed)
-
-    def close(self) -> None:
-        if self._made:
-            self._made.close()
+    return show
 
 
-class _Lines:
-    """Lines for a log: one at once, and one whenever the time passed has doubled."""
+def _bar(what: str, stack: ExitStack) -> Callable[[float, float], None]:
+    """A bar for a terminal, made when the work has taken longer than somebody's patience."""
+    update: Callable[..., None] | None = None
 
-    def __init__(self, what: str) -> None:
-        self._what, self._next = what, 0.0
+    def show(share: float, passed: float) -> None:
+        nonlocal update
+        if update is None and passed > PATIENCE:
+            from rich.console import Console
+            from rich.markup import escape
+            from rich.progress import Progress
 
-    def move(self, share: float, passed: float) -> None:
-        if passed >= self._next:
-            self._next = 2.0 * passed
-            report(f"{self._what}: {share:.0%} after {passed:.0f} s")
+            progress = stack.enter_context(Progress(console=Console(stderr=True), transient=True))
+            update = partial(progress.update, progress.add_task(escape(printable(what)), total=1.0))
+        if update is not None:
+            update(completed=share)
 
-    def close(self) -> None:
-        pass
-
-
-class _Bar:
-    """A bar for a terminal."""
-
-    def __init__(self, what: str) -> None:
-        from rich.console import Console
-        from rich.markup import escape
-        from rich.progress import Progress
-
-        self._progress = Progress(console=Console(stderr=True), transient=True)
-        self._task = self._progress.add_task(escape(printable(what)), total=1.0)
-        self._progress.start()
-
-    def move(self, share: float, passed: float) -> None:
-        self._progress.update(self._task, completed=share)
-
-    def close(self) -> None:
-        self._progress.stop()
+    return show
 
 
 def announce_compilation(scenario: Scenario | None = None) -> None:

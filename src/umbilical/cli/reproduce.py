@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.conclusion import conclude
 from umbilical.cli.options import Force, Json
-from umbilical.cli.output import report
+from umbilical.cli.output import conclude, report
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
     from umbilical.papers.rao2022 import Reproduction
 
 
-def reproduce(
+def reproduce_command(
     figures: Annotated[list[str] | None, Argument(metavar="[FIGURE]...", help="Only these, e.g. fig6 kappa.")] = None,
     out: Annotated[Path, Option("--out", metavar="DIR", help="Folder for the files; made if missing.")] = Path("paper"),
     maps: Annotated[bool, Option("--maps/--no-maps", help="Also the maps, some 2300 runs.")] = True,
@@ -39,7 +38,7 @@ def reproduce(
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.papers.rao2022 import reproduction
     from umbilical.papers.rao2022.article import article
-    from umbilical.papers.rao2022.summary import conclusion, document, moved_in, text
+    from umbilical.papers.rao2022.summary import moved_in
     from umbilical.studies.engines import default_jobs
 
     make_room(out, reproduction.targets(reproduction.choose(names, maps=maps), out, report=not names), force=force)
@@ -50,12 +49,8 @@ def reproduce(
     written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
     for one in moved:
         report(f"not as published: {one}")
-    return conclude(
-        conclusion(found, moved, check=check),
-        text=lambda: "\n".join(filter(None, [text(found), _files(found, out, written)])),
-        document=lambda: {**document(found, moved), "files": written},
-        as_json=as_json,
-    )
+    files = written if as_json else _files(found, out, written)
+    return conclude(found, moved, check, files=files, as_json=as_json)
 
 
 def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
@@ -73,9 +68,9 @@ def check_names(names: list[str], *, maps: bool, check: bool) -> list[str]:
     return list(dict.fromkeys(names))
 
 
-def _files(found: Reproduction, folder: Path, written: dict[str, Any]) -> str:
-    """Where the files are."""
+def _files(found: Reproduction, folder: Path, written: dict[str, Any]) -> dict[str, str]:
+    """Where the files are, in few words."""
     from umbilical.papers.rao2022.reproduction import KINDS
 
-    figures = f"{len(found.shown)} figures: {folder}, each as {', '.join(KINDS)}"
-    return "\n".join([figures, *([f"report: {written['report']}"] if "report" in written else [])])
+    figures = {f"{len(found.shown)} figures": f"{folder}, each as {', '.join(KINDS)}"}
+    return figures | {role: path for role, path in written.items() if role == "report"}

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.options import Json, presets_like
-from umbilical.cli.output import print_json, print_result
+from umbilical.cli.options import Json, source
+from umbilical.cli.output import conclude, print_json, print_result
 from umbilical.faces.text import text_table, wrapped
 
 if TYPE_CHECKING:
@@ -18,11 +18,14 @@ if TYPE_CHECKING:
 _ORIGIN = ("scenario_hash", "seed", "version_umbilical", "version_numpy", "version_numba", "version_python")
 
 
-def show(
+def show_command(
     file: Annotated[
         str,
-        Argument(
-            autocompletion=presets_like, help="A .nc result, a .toml scenario, study or operation, or a preset's name."
+        source(
+            "A .nc result, a .toml scenario, study or operation, or a preset's name.",
+            "scenario",
+            "studies",
+            "screening",
         ),
     ],
     metric: Annotated[
@@ -79,12 +82,7 @@ def _show_study(
         raise BadParameter(f"{unknown[0]} is not there; {there}", param_hint="--metric")
     if against is not None and against not in result.arms:
         raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
-    if as_json:
-        print_json(study_face.document(result, {"result": file}, against, metrics, sensitivity))
-    else:
-        parts = [study_face.conclusion(result).headline, study_face.text(result, metrics, against)]
-        parts += [study_face.sensitivity_text(result, sensitivity)] if sensitivity else []
-        print_result("\n\n".join(parts))
+    conclude(result, metrics, against, sensitivity, files={"result": file}, as_json=as_json)
 
 
 def _show_run(file: str, as_json: bool) -> None:
@@ -109,9 +107,9 @@ def _show_scenario(source: str, as_json: bool) -> None:
     if as_json:
         known = {"statics": found and found._asdict(), "notices": notices}
         print_json({"scenario": scenario.to_dict(), "scenario_hash": scenario.hash, **known})
-        return
-    told = f"before the first step: {found}" if found else ""
-    print_result("\n\n".join([_inventory(scenario, told), *(f"note: {notice}" for notice in notices)]))
+    else:
+        told = f"before the first step: {found}" if found else ""
+        print_result("\n\n".join([_inventory(scenario, told), *(f"note: {notice}" for notice in notices)]))
 
 
 def _show_operation(source: str, as_json: bool) -> None:
@@ -150,7 +148,7 @@ def _shortened(value: str) -> str:
     return f"{value[: _LONGEST - 20]}...{entries}"
 
 
-def compare(
+def compare_command(
     files: Annotated[list[Path], Argument(help="Two or more .nc results; ratios are to the first.")],
     as_json: Json = False,
 ) -> None:
@@ -160,17 +158,16 @@ def compare(
     example
       umbilical compare free.nc my.nc paper.nc
     """
-    from umbilical.analysis.comparison import compare as compute
-    from umbilical.faces.comparison import document, text
+    from umbilical.analysis.comparison import compare
     from umbilical.stored_runs import open_run
 
     if len(files) < 2:
         raise BadParameter("two or more results are compared", param_hint="FILES")
-    found = compute(*(open_run(file) for file in files), names=[file.stem for file in files])
+    found = compare(*(open_run(file) for file in files), names=[file.stem for file in files])
     if as_json:
-        whole = document(found)
+        whole = found.face.document(found)
         for run, file in zip(whole["runs"], files, strict=True):
             run["files"] = {"result": str(file)}
         print_json(whole)
     else:
-        print_result(text(found))
+        print_result(found.face.text(found))

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Option
 
-from umbilical.cli.conclusion import conclude_result
-from umbilical.cli.options import Changes, Force, Jobs, Json, Plot
-from umbilical.cli.run import load_changed
-from umbilical.cli.targets import PICTURES, check_target, draw_files
-from umbilical.cli.terminal import report
+from umbilical.cli.loading import load_scenario
+from umbilical.cli.options import Changes, Force, Jobs, Json, Plot, source
+from umbilical.cli.output import conclude, report
+from umbilical.cli.targets import draw_files
 
 
-def snap(
-    scenario: Annotated[str, Argument(help='A preset or a .toml file with model = "rope" and a sea.')],
+def snap_command(
+    scenario: Annotated[str, source('A preset or a .toml file with model = "rope" and a sea.', "scenario")],
     changes: Changes = None,
     seeds: Annotated[int, Option("--seeds", min=1, max=10000, help="How many seeds of the sea.")] = 20,
     risk: Annotated[float | None, Option("--risk", min=0.0, max=1.0, help="Accepted probability of slack.")] = None,
@@ -37,15 +36,13 @@ def snap(
     from umbilical.cli.confirm import cost
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies.engines import default_jobs
-    from umbilical.studies.snap import check_seeds
-    from umbilical.studies.snap import snap as study
+    from umbilical.studies.snap import check_seeds, snap
 
-    check_target(plot, PICTURES, force=force)
-    loaded, workers = load_changed(scenario, changes or []), min(jobs or default_jobs(), seeds)
+    loaded, workers = load_scenario(scenario, changes), min(jobs or default_jobs(), seeds)
     check_seeds(loaded, seeds)
     report(f"{seeds} seeds of {loaded.duration:g} s, {cost(loaded, seeds, workers)}")
     announce_compilation(loaded)
     with bar("seeds of the sea") as advance:
-        found = study(loaded, seeds, workers=workers, progress=advance)
+        found = snap(loaded, seeds, workers=workers, progress=advance)
     files = draw_files(found.plot, plot if found.completed.any() else None, force=force)
-    return conclude_result(found, risk, files=files, as_json=as_json)
+    return conclude(found, risk, files=files, as_json=as_json)

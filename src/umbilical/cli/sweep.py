@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, BadParameter, Option
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Anew, Changes, Force, Jobs, Json, Resume, Trust
-from umbilical.cli.output import print_result, report
-from umbilical.errors import FileError
+from umbilical.cli.loading import load_changed_study
+from umbilical.cli.options import Anew, Changes, Force, Jobs, Json, Resume, Trust, source
+from umbilical.cli.output import conclude, print_result, report
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -19,8 +18,8 @@ if TYPE_CHECKING:
     from umbilical.studies.study import Study
 
 
-def sweep(
-    study: Annotated[str, Argument(help="A study's name, a .toml file, or the .nc result of one to run again.")],
+def sweep_command(
+    study: Annotated[str, source("A study's name, a .toml file, or the .nc result of one to run again.", "studies")],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; named as the study if left out.")] = None,
     jobs: Jobs = None,
@@ -46,58 +45,22 @@ def sweep(
     from a result.
     """
     from umbilical.cli.progress import announce_compilation, bar
-    from umbilical.faces.study import conclusion, document
-    from umbilical.faces.study import text as study_text
-    from umbilical.studies.sweep import sweep as run
+    from umbilical.studies.sweep import sweep
 
     if dask and processes:
         raise BadParameter("--processes and --dask say two different things", param_hint="--dask")
-    chosen = load_changed_study(study, changes or [])
-    refuse_code_of_results(study, chosen)
+    chosen = load_changed_study(study, changes)
     folder = out or Path(chosen.name)
     announce_compilation(chosen.scenario)
     try:
         with _engine(chosen, jobs, processes, dask) as engine, bar(f"running {chosen.name}") as advance:
-            found = run(
+            found = sweep(
                 chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, report=report
             )
     except KeyboardInterrupt:
         report(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
-    where = {"result": str(folder / "study.nc")}
-    return conclude(
-        conclusion(found),
-        text=lambda: f"\n{study_text(found)}\n",
-        document=lambda: document(found, where),
-        files=where,
-        as_json=as_json,
-    )
-
-
-def refuse_code_of_results(source: str, study: Study) -> None:
-    """A result says which code was run; whoever opens it has not read that code.
-
-    Raises:
-        FileError: the study of a result file names Python controllers.
-    """
-    if Path(source).suffix == ".nc" and (named := [arm.controller for arm in study.arms if arm.controller]):
-        raise FileError(
-            f"{source}: its study names the Python controllers {', '.join(named)}, which are never imported from a "
-            "result; run the study's own file with --trust"
-        )
-
-
-def load_changed_study(source: str, changes: list[str]) -> Study:
-    """A study with ``key=value`` changes.
-
-    Raises:
-        FileError: there is no such study.
-        ScenarioError: with every problem.
-    """
-    from umbilical.scenario.document import assignment
-    from umbilical.studies.load import load_study
-
-    return load_study(source, dict(assignment(text) for text in changes))
+    return conclude(found, files={"result": str(folder / "study.nc")}, as_json=as_json)
 
 
 def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -> AbstractContextManager[Executor]:
@@ -111,8 +74,8 @@ def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -
     return engines.processes(jobs or engines.default_jobs()) if processes else open_engine(study, jobs)
 
 
-def member(
-    study: Annotated[str, Argument(help="A study's name, a .toml file, or a .nc result.")],
+def member_command(
+    study: Annotated[str, source("A study's name, a .toml file, or a .nc result.", "studies")],
     number: Annotated[int, Argument(help="The member, from 1.")],
     arm: Annotated[str | None, Option("--arm", metavar="NAME", help="An arm's name; the first if left out.")] = None,
     out: Annotated[Path | None, Option("--out", metavar="FILE.toml", help="Write it to a file.")] = None,
@@ -131,7 +94,7 @@ def member(
     from umbilical import files
     from umbilical.studies.members import Draws
 
-    chosen = load_changed_study(study, changes or [])
+    chosen = load_changed_study(study, changes, runs=False)
     draws, arms = Draws(chosen), [a.name for a in chosen.arms]
     if not 1 <= number <= len(draws):
         raise BadParameter(f"there are members 1 to {len(draws)}", param_hint="NUMBER")
@@ -141,7 +104,4 @@ def member(
     if own := chosen.arms[place].controller:
         report(f"arm '{arms[place]}' is decided by {own}: run the scenario with --controller {own}")
     text = draws.scenario(draws.member(number), place).to_toml()
-    if out:
-        print_result(f"scenario: {files.write(out, text.encode(), force=force)}")
-    else:
-        print_result(text)
+    print_result(f"scenario: {files.write(out, text.encode(), force=force)}" if out else text)

@@ -10,6 +10,9 @@ from umbilical import files
 from umbilical.errors import OutputError
 
 PICTURES = ("png", "pdf", "svg")
+SCHEMA = "scenario.schema.json"
+SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
+"""First line of a scenario's file: where editors find its schema."""
 
 
 def check_target(path: Path | None, kinds: tuple[str, ...], *, force: bool) -> None:
@@ -52,14 +55,10 @@ def make_room(folder: Path, targets: list[Path], *, force: bool) -> None:
         raise OutputError(f"{folder}: holds {', '.join(there[:3])}{more} already; name another folder, or --force")
 
 
-SCHEMA = "scenario.schema.json"
-SCHEMA_LINE = f"#:schema ./{SCHEMA}\n"
-"""First line of a scenario's file: where editors find its schema."""
-
-
-def schema_beside(path: Path) -> dict[str, str]:
-    """Write the schema of scenarios beside one, if there is no file of its name; what was written, by role."""
+def write_scenario(path: Path, text: str, *, force: bool) -> dict[str, str]:
+    """Write a scenario and beside it, unless a file has that name, the schema of scenarios; the files by role."""
     from umbilical.scenario.schema import schema_text
 
+    written = {"scenario": str(files.write(path, (SCHEMA_LINE + text).encode(), force=force))}
     schema = path.parent / SCHEMA
-    return {} if schema.exists() else {"schema": str(files.write(schema, schema_text().encode()))}
+    return written if schema.exists() else written | {"schema": str(files.write(schema, schema_text().encode()))}

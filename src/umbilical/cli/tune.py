@@ -6,24 +6,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated
 
-from typer import Argument, Option
+from typer import Option
 
-from umbilical.cli.conclusion import conclude
-from umbilical.cli.options import Anew, Changes, Jobs, Json, Resume, Trust
-from umbilical.cli.output import report
-from umbilical.cli.sweep import load_changed_study, refuse_code_of_results
-from umbilical.cli.targets import PICTURES, check_target, draw_files
-from umbilical.faces.tuning import conclusion, document, text
+from umbilical.cli.loading import load_changed_study
+from umbilical.cli.options import Anew, Changes, Jobs, Json, Plot, Resume, Trust, source
+from umbilical.cli.output import conclude, report
+from umbilical.cli.targets import draw_files
 
 
-def tune(
-    study: Annotated[str, Argument(help="A study with a section [tuning]: its name or a .toml file.")],
+def tune_command(
+    study: Annotated[str, source("A study with a section [tuning]: its name or a .toml file.", "studies")],
     changes: Changes = None,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Folder; NAME-tuned if left out.")] = None,
     jobs: Jobs = None,
-    picture: Annotated[
-        Path | None, Option("--plot", metavar="FILE", help="Draw the front: a .png, .pdf or .svg.")
-    ] = None,
+    plot: Plot = None,
     trust: Trust = False,
     resume: Resume = False,
     force: Anew = False,
@@ -43,40 +39,25 @@ def tune(
     """
     from umbilical.cli.progress import announce_compilation, bar
     from umbilical.studies.sweep import open_engine
-    from umbilical.studies.tune import tune as search
+    from umbilical.studies.tune import tune
 
-    chosen = load_changed_study(study, changes or [])
-    refuse_code_of_results(study, chosen)
-    check_target(picture, PICTURES, force=force or resume)
+    chosen = load_changed_study(study, changes)
     folder = out or Path(f"{chosen.name}-tuned")
     announce_compilation()
     try:
         with open_engine(chosen, jobs) as engine, bar(f"tuning {chosen.name}") as advance:
-            found = search(
-                chosen,
-                folder,
-                engine=engine,
-                trust=trust,
-                resume=resume,
-                force=force,
-                progress=advance,
-            )
+            found = tune(chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance)
     except KeyboardInterrupt:
         report(f"interrupted; finished trials are kept, `--out {folder} --resume` goes on")
         raise
     files = {"trials": str(folder / "tuning.json")}
     files |= {f"scenario {k}": str(folder / name) for k, name in enumerate(found.files, start=1)}
     if found.front:
-        files |= draw_files(found.plot, picture, force=force or resume)
-    return conclude(
-        conclusion(found),
-        text=lambda: "\n\n".join([text(found), "\n".join(f"{role}: {path}" for role, path in _shortened(files))]),
-        document=lambda: {**document(found), "files": files},
-        as_json=as_json,
-    )
+        files |= draw_files(found.plot, plot, force=force or resume)
+    return conclude(found, files=files if as_json else _shortened(files), as_json=as_json)
 
 
-def _shortened(files: Mapping[str, str]) -> list[tuple[str, str]]:
+def _shortened(files: Mapping[str, str]) -> dict[str, str]:
     """Of many scenarios the first and the last."""
     scenarios = [role for role in files if role.startswith("scenario")]
-    return [(role, path) for role, path in files.items() if role not in scenarios[1:-1]]
+    return {role: path for role, path in files.items() if role not in scenarios[1:-1]}

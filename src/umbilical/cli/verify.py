@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from umbilical.cli.conclusion import conclude_result
 from umbilical.cli.options import Force, Json
+from umbilical.cli.output import conclude
 from umbilical.cli.targets import make_room
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 FILES = ("verification.md", "verification.json", "convergence.svg")
 
 
-def verify(
+def verify_command(
     quick: Annotated[bool, Option("--quick", help="Half a minute: leave out what takes long.")] = False,
     out: Annotated[Path | None, Option("--out", metavar="DIR", help="Write table, data and pictures there.")] = None,
     as_json: Json = False,
@@ -43,7 +43,7 @@ def verify(
     announce_compilation()
     with bar("verifying") as advance:
         found = verify_all(quick, progress=advance)
-    return conclude_result(found, files=_write(found, targets, force), as_json=as_json)
+    return conclude(found, files=_write(found, targets, force), as_json=as_json)
 
 
 def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, str]:

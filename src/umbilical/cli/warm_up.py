@@ -7,7 +7,7 @@ from time import perf_counter
 from umbilical.cli.output import print_result
 
 
-def warm_up() -> int:
+def warm_up_command() -> int:
     """Compile all kernels now, so that no later run has to.
 
     \b

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict
-from math import isnan
+from math import isnan, log
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import CERTIFICATE
 
@@ -20,12 +20,13 @@ SCATTER = 1e-3
 """By how much sampling and grid may lift V of an ideal run over its bound before the bound counts as broken."""
 
 
-def conclusion(certificate: Certificate, audit: Audit | None = None) -> Conclusion:
+def _conclusion(certificate: Certificate, audit: Audit | None = None) -> Conclusion:
     """Whether a rate is proved and, where that was asked, no simulation of the ideal loop refutes it."""
     name = certificate.scenario.name
     if not certificate.holds:
         return Conclusion("DOES_NOT_HOLD", f"{name}: not certified: {'; '.join(_missing(certificate))}")
-    proved = f"{name}: certified, V decays at {certificate.rate:.4g} 1/s or faster"
+    halving = log(2.0) / certificate.rate
+    proved = f"{name}: certified, V decays at {certificate.rate:.4g} 1/s or faster (halves within {halving:.3g} s)"
     if audit is None:
         return Conclusion("HOLDS", proved)
     if (status := audit.ideal_run.status.name) != "COMPLETED":
@@ -46,7 +47,7 @@ def _missing(certificate: Certificate) -> list[str]:
     return failed or [f"{n} not proved from {a:.6g} to {b:.6g} s" for n, a, b in certificate.proof.open[:1]]
 
 
-def text(certificate: Certificate, audit: Audit | None = None) -> str:
+def _text(certificate: Certificate, audit: Audit | None = None) -> str:
     """What the verdict rests on, as people read it."""
     return "\n".join([*_report(certificate), *(_audit_report(audit) if audit else ())])
 
@@ -147,7 +148,7 @@ def _audit_report(audit: Audit) -> Iterator[str]:
     yield f"  the ideal loop's V is the integral of its exact rate within {audit.identity:.1e} of its largest value"
 
 
-def document(certificate: Certificate, audit: Audit | None = None) -> dict[str, Any]:
+def _document(certificate: Certificate, audit: Audit | None = None) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
     from umbilical.certificate import largest_bounds
 
@@ -187,3 +188,6 @@ def _audit_document(audit: Audit) -> dict[str, Any]:
         "real_start": float(audit.real[0]),
         "real_end": float(audit.real[-1]),
     }
+
+
+FACE = Face(_conclusion, _text, _document)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import METRICS
 
@@ -12,18 +12,18 @@ if TYPE_CHECKING:
     from umbilical.analysis.comparison import Comparison
 
 
-def conclusion(found: Comparison) -> Conclusion:
+def _conclusion(found: Comparison) -> Conclusion:
     """Nothing is judged."""
     return Conclusion("NOT_ASKED", f"{', '.join(found.names[1:])} over {found.names[0]}")
 
 
-def document(found: Comparison) -> dict[str, Any]:
+def _document(found: Comparison) -> dict[str, Any]:
     """A comparison as plain data, each run as its own ``to_dict()``."""
     runs = [{"name": name} | run.to_dict() for name, run in zip(found.names, found.runs, strict=True)]
     return {"runs": runs, "ratios": found.ratios}
 
 
-def text(found: Comparison) -> str:
+def _text(found: Comparison) -> str:
     """Metrics side by side, then what each run notes."""
     head = ["", "", found.names[0]] + [cell for name in found.names[1:] for cell in (name, "ratio")]
     first, *others = (run.status.name for run in found.runs)
@@ -40,3 +40,6 @@ def text(found: Comparison) -> str:
 
 def _shown(value: float | None, digits: int) -> str:
     return "-" if value is None else f"{value:.{digits}g}"
+
+
+FACE = Face(_conclusion, _text, _document)

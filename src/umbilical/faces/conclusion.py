@@ -1,9 +1,10 @@
-"""The verdict of a result: a decision, its words and the exit code that goes with it."""
+"""How a result is shown: its verdict, a text below the verdict's headline, and plain data."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 DOES_NOT_HOLD = 7
 """Exit code of what does not hold or is not resolved."""
@@ -34,3 +35,26 @@ class Conclusion:
     def document(self) -> dict[str, Any]:
         """The keys that lead every ``--json`` of a command that judges."""
         return {"verdict": self.decision, "headline": self.headline, "exit_code": self.exit_code}
+
+
+class Face(NamedTuple):
+    """How results of one kind are shown. Each function takes the result and what stands beside it, such as an audit.
+
+    Attributes:
+        conclusion: gives the verdict.
+        text: gives what stands below the headline.
+        document: gives plain data, without the verdict.
+    """
+
+    conclusion: Callable[..., Conclusion]
+    text: Callable[..., str]
+    document: Callable[..., dict[str, Any]]
+
+    def summary(self, *found: Any) -> str:
+        """The verdict and what it rests on."""
+        return "\n".join(filter(None, [self.conclusion(*found).headline, self.text(*found)]))
+
+    def to_dict(self, *found: Any) -> dict[str, Any]:
+        """Plain data, the verdict first, and not to be contradicted by what a result says of itself."""
+        verdict = self.conclusion(*found).document()
+        return verdict | self.document(*found) | verdict

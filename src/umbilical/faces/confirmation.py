@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
     from umbilical.studies.confirm import Confirmation
 
 
-def conclusion(found: Confirmation) -> Conclusion:
+def _conclusion(found: Confirmation) -> Conclusion:
     """Whether the runs keep every criterion with their whole interval, or pass one, or do not say."""
     what = f"Hs {found.height:.3g} m"
     count, reached = f"{int(found.completed.sum())} of {found.seeds.size} seeds on the rope", found.reached[found.worst]
@@ -31,7 +31,7 @@ def _instead(found: Confirmation) -> str:
     return f"; --height {0.99 * found.confirmed_height:.2g} may be" if found.confirmed_height > 0.0 else ""
 
 
-def text(found: Confirmation) -> str:
+def _text(found: Confirmation) -> str:
     """What each criterion came to, and what the runs do not know."""
     rows = [("criterion", "share used", "95 % interval", "runs that exceed it")]
     for criterion, reached in zip(found.criteria, found.reached, strict=True):
@@ -55,7 +55,7 @@ def notices(found: Confirmation) -> tuple[str, ...]:
     )
 
 
-def document(found: Confirmation) -> dict[str, Any]:
+def _document(found: Confirmation) -> dict[str, Any]:
     """As plain data."""
     sea = found.scenario.environment.sea
     return {
@@ -73,3 +73,6 @@ def document(found: Confirmation) -> dict[str, Any]:
         "confirmed_height": found.confirmed_height,
         "notices": notices(found),
     }
+
+
+FACE = Face(_conclusion, _text, _document)

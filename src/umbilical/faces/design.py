@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
-from umbilical.faces.margins import document as margins_document
-from umbilical.faces.margins import rows as margin_rows
+from umbilical.faces import margins
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
@@ -16,14 +15,14 @@ if TYPE_CHECKING:
 NOT_ASKED = "the engine's grids; `umbilical margins` of these gains asks them, and may leave the margins unresolved"
 
 
-def conclusion(found: Design) -> Conclusion:
+def _conclusion(found: Design) -> Conclusion:
     """Whether the gains keep every margin and limit."""
     state = "all margins (of the exact cable) and limits are kept" if found.met else "NOT everything is kept"
     headline = f"{found.after.scenario.name}: designed for {found.objective}; {state}"
     return Conclusion("HOLDS" if found.met else "DOES_NOT_HOLD", headline)
 
 
-def document(found: Design) -> dict[str, Any]:
+def _document(found: Design) -> dict[str, Any]:
     """A design as ``--json`` prints it."""
     return {
         "objective": found.objective,
@@ -52,17 +51,17 @@ def _side(side: Evaluation) -> dict[str, Any]:
         "speed_peak": trial.speed_peak,
         "chatter": trial.chatter,
         "noise": side.noise._asdict(),
-        "margins": margins_document(side.report),
+        "margins": margins.FACE.document(side.report),
     }
 
 
-def text(found: Design) -> str:
+def _text(found: Design) -> str:
     """What the verdict rests on, as people read it."""
     lines = [f"  missing: {words}" for words in found.missing]
     lines += [f"  limit: {words}" for words in found.limited_by]
     lines += [text_table(_comparison(found), right=(1, 2)), "", found.patch().rstrip(), ""]
     for side, words in ((found.before, "before"), (found.after, "after")):
-        lines += [f"  margins {words}", text_table(margin_rows(side.report), right=range(7))]
+        lines += [f"  margins {words}", text_table(margins.rows(side.report), right=range(7))]
     lines.append(f"  not asked: {NOT_ASKED}")
     return "\n".join(lines)
 
@@ -83,3 +82,6 @@ def _comparison(found: Design) -> list[tuple[str, str, str]]:
     }
     rows = [("", "before", "after")]
     return rows + [(words, show(found.before), show(found.after)) for words, show in named.items()]
+
+
+FACE = Face(_conclusion, _text, _document)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ SHOWN = {"phase": (180.0 / math.pi, " deg"), "delay": (1e3, " ms"), "frequency t
 """Factor and unit in which a number is shown."""
 
 
-def conclusion(report: MarginReport) -> Conclusion:
+def _conclusion(report: MarginReport) -> Conclusion:
     """Whether the loop is stable at every length, if the grids that were asked agree."""
     if report.doubt:
         return Conclusion("UNRESOLVED", f"{report.name}: UNRESOLVED, {report.doubt}")
@@ -32,7 +32,7 @@ def conclusion(report: MarginReport) -> Conclusion:
     return Conclusion("HOLDS" if report.stable else "DOES_NOT_HOLD", headline)
 
 
-def document(report: MarginReport) -> dict[str, Any]:
+def _document(report: MarginReport) -> dict[str, Any]:
     """A report as ``--json`` prints it."""
     return {
         "scenario": report.scenario.name,
@@ -84,7 +84,7 @@ def _one_length(j: Judgement) -> dict[str, Any]:
     }
 
 
-def text(report: MarginReport) -> str:
+def _text(report: MarginReport) -> str:
     """What the verdict rests on, as people read it."""
     thrust = f"  motors linearised at a thrust of {report.operating_thrust:.4g} N"
     if report.doubt:
@@ -176,3 +176,6 @@ def _remarks(j: Judgement) -> list[str]:
 
 def _frequency(limit: Limit) -> str:
     return f"{limit.frequency:.3g} rad/s"
+
+
+FACE = Face(_conclusion, _text, _document)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 
 if TYPE_CHECKING:
     from umbilical.studies.snap import SnapStudy
 
 
-def conclusion(found: SnapStudy, risk: float | None = None) -> Conclusion:
+def _conclusion(found: SnapStudy, risk: float | None = None) -> Conclusion:
     """Whether slack is as unlikely as was asked, if it was."""
     if not found.completed.all():
         return Conclusion("UNRESOLVED", f"UNRESOLVED, not every seed completed: {_told(found)}")
@@ -35,7 +35,7 @@ def _told(found: SnapStudy) -> str:
     return f"{runs}: {slack}; " + (f"largest snap {largest:.4g} N" if largest else "no snap")
 
 
-def text(found: SnapStudy, risk: float | None = None) -> str:
+def _text(found: SnapStudy, risk: float | None = None) -> str:
     """What the runs came to, the rule of thumb beside it, and the distribution of the largest tensions."""
     lines = [f"  did not complete: {reason}" for reason in found.reasons]
     if found.completed.any():
@@ -60,7 +60,7 @@ def _fitted(found: SnapStudy) -> str:
     )
 
 
-def document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:
+def _document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:
     """As plain data."""
     fit = found.extreme
     return {
@@ -80,3 +80,6 @@ def document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:
         and {"location": fit.location, "scale": fit.scale, "exceeded_by_1_in_100": fit.exceeded._asdict()},
         "accepted_risk": risk,
     }
+
+
+FACE = Face(_conclusion, _text, _document)

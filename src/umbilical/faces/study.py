@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import shown_unit, text_table, wrapped
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
@@ -28,8 +28,12 @@ _WORST = 3
 _REASONS = 3
 
 
-def text(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None) -> str:
-    """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst."""
+def _text(
+    result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None, sensitivity: str | None = None
+) -> str:
+    """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst, and where
+    a metric is named which draws matter for it.
+    """
     study, chosen = result.study, metrics or _usual(result)
     parts = [wrapped(study.description)]
     parts += [_endings(result), _reasons(result)]
@@ -37,10 +41,11 @@ def text(result: StudyResult, metrics: tuple[str, ...] = (), against: str | None
         parts += [_distribution(result, metric), _comparison(result, metric, against or result.arms[0])]
     parts += [_exceedances(result)] if study.limits else []
     parts += [_worst(result, chosen[0]), statistics.caveat(study.design)] if chosen else [NONE_COMPLETED]
-    return "\n\n".join(filter(None, parts))
+    parts += [_sensitivity_text(result, sensitivity)] if sensitivity else []
+    return "\n" + "\n\n".join(filter(None, parts))
 
 
-def conclusion(result: StudyResult) -> Conclusion:
+def _conclusion(result: StudyResult, *_: object) -> Conclusion:
     """Whether every arm has a member that completed: what did not complete is no measurement."""
     size, arms, lost = result.data.sizes["member"], len(result.arms), result.lost
     least = min(found["COMPLETED"] for found in endings(result).values())
@@ -116,7 +121,7 @@ def _worst(result: StudyResult, metric: str) -> str:
     return text_table(rows, right=range(1, _WORST + 1))
 
 
-def sensitivity_text(result: StudyResult, metric: str) -> str:
+def _sensitivity_text(result: StudyResult, metric: str) -> str:
     """Which draws matter, in each arm.
 
     Raises:
@@ -150,17 +155,12 @@ def _or_dash(value: float) -> str:
     return "-" if np.isnan(value) else f"{value:.3g}"
 
 
-def document(
-    result: StudyResult,
-    files: dict[str, str] | None = None,
-    against: str | None = None,
-    metrics: tuple[str, ...] = (),
-    sensitivity: str | None = None,
+def _document(
+    result: StudyResult, metrics: tuple[str, ...] = (), against: str | None = None, sensitivity: str | None = None
 ) -> dict[str, Any]:
     """A study's result as ``--json`` prints it; comparisons are with an arm, the first if none is named."""
     first, limits = against or result.arms[0], result.study.limits.items()
     document = {
-        **conclusion(result).document(),
         "study": result.study.name,
         "study_hash": result.study.hash,
         "members": result.data.sizes["member"],
@@ -177,7 +177,6 @@ def document(
             for name, limit in limits
         },
         "intervals": statistics.caveat(result.study.design),
-        "files": dict(files or {}),
     }
     return document | ({"sensitivity": _sensitivity(result, sensitivity)} if sensitivity else {})
 
@@ -227,3 +226,6 @@ def describe(study: Study) -> str:
 
 def _short(value: object) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+FACE = Face(_conclusion, _text, _document)

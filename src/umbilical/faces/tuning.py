@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import text_table
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 _SHOWN = 12
 
 
-def conclusion(found: Tuned) -> Conclusion:
+def _conclusion(found: Tuned) -> Conclusion:
     """Whether some gains keep every condition."""
     kept = sum(trial.verdict.broken == 0.0 for trial in found.trials)
     headline = f"{found.study.name}: {len(found.trials)} trials, {kept} of which keep every condition"
@@ -22,7 +22,7 @@ def conclusion(found: Tuned) -> Conclusion:
     return Conclusion("HOLDS", headline)
 
 
-def text(found: Tuned) -> str:
+def _text(found: Tuned) -> str:
     """What broke, and the gains that are left, as people read it."""
     from umbilical.studies.tune import name_of, tuning_of
 
@@ -40,6 +40,9 @@ def text(found: Tuned) -> str:
     return f"{text}\n{what}:\n\n{text_table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
 
 
-def document(found: Tuned) -> dict[str, Any]:
+def _document(found: Tuned) -> dict[str, Any]:
     """A search as ``--json`` prints it."""
     return found.document()
+
+
+FACE = Face(_conclusion, _text, _document)

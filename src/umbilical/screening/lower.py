@@ -37,6 +37,7 @@ class Lowering(ScreeningResult):
         heading: rad.
     """
 
+    shown_by: ClassVar[str] = "umbilical.faces.lowering"
     drawn_by: ClassVar[str] = "plot_lowering"
 
     operation: Operation

@@ -53,6 +53,7 @@ class Operability(ScreeningResult):
             of :data:`TYPICAL_LOSS` moves it by more than :data:`MOVED`; shape (depth, period, heading).
     """
 
+    shown_by: ClassVar[str] = "umbilical.faces.operability"
     drawn_by: ClassVar[str] = "plot_operability"
 
     operation: Operation

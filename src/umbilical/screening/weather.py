@@ -34,6 +34,7 @@ class Weather(ResultFaces):
         needed: how long the operation takes, s.
     """
 
+    shown_by: ClassVar[str] = "umbilical.faces.weather"
     drawn_by: ClassVar[str] = "plot_weather"
 
     found: Operability

@@ -12,7 +12,7 @@ from typing import Any
 
 from umbilical.control.contract import Controller
 from umbilical.engine.simulate import rehearse
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError, UmbilicalError
 from umbilical.scenario import Scenario
 from umbilical.scenario.problems import nearest
 from umbilical.scenario.scenario import validate
@@ -70,8 +70,9 @@ def named_controller(path: str, scenario: Scenario, key: str = "--controller") -
 
 
 def describe_error(error: BaseException) -> str:
-    """Type and text of what a controller raised, of bounded length."""
-    return shortened(f"{type(error).__name__}: {error}".rstrip(": "))
+    """Type and text of what a controller raised, of bounded length; an error of ours says what it was by itself."""
+    kind = "" if isinstance(error, UmbilicalError) else f"{type(error).__name__}: "
+    return shortened(f"{kind}{error}".rstrip(": "))
 
 
 def shortened(reason: str) -> str:
@@ -97,7 +98,8 @@ def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] 
     except AttributeError as error:
         return bound, str(error), nearest(path.partition(":")[2], _public(path))
     except ModuleNotFoundError as error:
-        return bound, str(error), f"{Path(path).stem}:NAME, in the folder of {Path(path).stem}.py or installed"
+        module = Path(path.partition(":")[0].removesuffix(".py")).name
+        return bound, str(error), f"{module}:NAME, in the folder of {module}.py or installed"
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # sys.exit in a module must not end us

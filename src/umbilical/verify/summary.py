@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import finite_only, markdown, text_table
 
 if TYPE_CHECKING:
@@ -16,14 +16,14 @@ if TYPE_CHECKING:
 HEAD = ("quantity", "ours", "reference", "error", "tolerance", "why this tolerance", "verdict")
 
 
-def conclusion(found: Verification) -> Conclusion:
+def _conclusion(found: Verification) -> Conclusion:
     """Whether every check holds; without a check there is nothing to say."""
     if not any(result.checks for result in found.results):
         return Conclusion("UNRESOLVED", f"UNRESOLVED, nothing was checked: {found.headline}")
     return Conclusion("HOLDS" if found.holds else "DOES_NOT_HOLD", found.headline)
 
 
-def text(found: Verification) -> str:
+def _text(found: Verification) -> str:
     """The table, family by family, a case in a line of its own and its checks below."""
     parts = []
     for family, results in found.families.items():
@@ -41,7 +41,7 @@ def _line(check: Check) -> tuple[str, ...]:
     return check.verdict, check.quantity, ours, expected, f"error {error}", f"<= {tolerance}", check.why
 
 
-def document(found: Verification) -> dict[str, Any]:
+def _document(found: Verification) -> dict[str, Any]:
     """A verification as ``--json`` prints it."""
     rows = [
         {"family": family} | row
@@ -68,7 +68,7 @@ def _row(check: Check) -> dict[str, Any]:
 
 def data(found: Verification) -> str:
     """JSON text; what is not finite becomes null."""
-    return json.dumps(finite_only(document(found)), indent=2, allow_nan=False) + "\n"
+    return json.dumps(finite_only(_document(found)), indent=2, allow_nan=False) + "\n"
 
 
 def markdown_page(found: Verification, picture: str) -> str:
@@ -100,3 +100,6 @@ def one_digit(error: float) -> str:
     if error <= 0.0:
         return "none"
     return "round-off" if error < 1e-12 else f"{error:.0e}"
+
+
+FACE = Face(_conclusion, _text, _document)

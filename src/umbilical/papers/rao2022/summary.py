@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from umbilical.faces.conclusion import Conclusion
+from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.papers.rao2022.expected import Deviation, deviations
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ def moved_in(found: Reproduction) -> list[Deviation]:
     return deviations(found.findings, complete=found.mapped) if found.findings else []
 
 
-def conclusion(found: Reproduction, moved: list[Deviation] | None = None, *, check: bool = True) -> Conclusion:
+def _conclusion(found: Reproduction, moved: list[Deviation] | None = None, check: bool = True) -> Conclusion:
     """Whether every number is as published, where that was asked."""
     moved = moved_in(found) if moved is None else moved
     made = f"reproduced: {len(found.findings)} claims, {len(found.shown)} figures"
@@ -28,7 +28,7 @@ def conclusion(found: Reproduction, moved: list[Deviation] | None = None, *, che
     return Conclusion(decision, f"{made}; {state}")
 
 
-def text(found: Reproduction) -> str:
+def _text(found: Reproduction, *_: object) -> str:
     """The ledger."""
     return "\n".join(
         f"{f.id:<4} {f.statement}\n     {f.conclusion[0].upper() + f.conclusion[1:]}. {f.because}"
@@ -36,7 +36,7 @@ def text(found: Reproduction) -> str:
     )
 
 
-def document(found: Reproduction, moved: list[Deviation] | None = None) -> dict[str, Any]:
+def _document(found: Reproduction, moved: list[Deviation] | None = None, *_: object) -> dict[str, Any]:
     """A reproduction as ``--json`` prints it."""
     moved = moved_in(found) if moved is None else moved
     claims = [
@@ -54,3 +54,6 @@ def document(found: Reproduction, moved: list[Deviation] | None = None) -> dict[
     ]
     runs = {name: {"status": run.status.name, "scenario_hash": run.scenario.hash} for name, run in found.runs.items()}
     return {"claims": claims, "not_as_published": [one._asdict() for one in moved], "runs": runs}
+
+
+FACE = Face(_conclusion, _text, _document)
