@@ -13,13 +13,9 @@ FILES = {
     for path in (SOURCE / "umbilical").rglob("*.py")
 }
 LATER = {
-    "engine.model": {"engine.rope.model"},
-    "engine.simulate": {"engine.resolution"},
     "faces.certificate": {"certificate"},
     "faces.study": {"studies.members", "studies.sensitivity"},
     "faces.tuning": {"studies.tune"},
-    "plant.checks.steps": {"plant.rope.assemble"},
-    "plots.figure": {"plant.exogenous"},
     "plots.study": {"studies.sensitivity"},
     "run": {"umbilical"},
     "studies.constraints": {"certificate.certify", "stability.judgement"},
@@ -33,7 +29,6 @@ LATER = {
 """What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would
 be a circle at import."""
 CIRCLES = {
-    frozenset({"engine.model", "engine.rope.model"}),
     frozenset(
         {
             "studies.checks",

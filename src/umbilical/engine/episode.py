@@ -10,8 +10,9 @@ import numpy as np
 
 from umbilical.control.contract import Command, Measurement
 from umbilical.engine import loop
+from umbilical.engine.base import Model
 from umbilical.engine.ending import Ending
-from umbilical.engine.model import Model, make_model
+from umbilical.engine.model import make_model
 from umbilical.engine.schedule import end_of_stretch, stretch
 from umbilical.errors import ControllerError, Problem, ScenarioError
 from umbilical.library import admit

@@ -7,7 +7,7 @@ same bits (tests/twins).
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from umbilical.compile import entry_kernel, glue
 from umbilical.control import cascade
 from umbilical.control.cascade import CascadeSettings, CascadeState
 from umbilical.control.contract import Command, Decision, Readings
-from umbilical.engine.recording import Log, Tally, measure, store
+from umbilical.engine.recording import measure, store
 from umbilical.engine.sensing import SensorErrors, SensorState, sense
 from umbilical.engine.stepping import DRY, WET, Plant, PlantState, advance, enter_dry_step, enter_step
 from umbilical.errors import ControllerError
@@ -39,17 +39,19 @@ class RunRecord(NamedTuple):
     """What is kept of a run.
 
     Attributes:
-        log, tally: stored samples, and measures of all.
+        log, tally: stored samples, and measures of all: of the string or of the rope.
         every: every so many updates one is stored; the last one always is.
         fault_update: first update at or after the first fault.
         last_update: the update at the end of the run.
+        period: of control, s.
     """
 
-    log: Log
-    tally: Tally
+    log: Any
+    tally: Any
     every: int
     fault_update: int
     last_update: int
+    period: float
 
 
 @glue

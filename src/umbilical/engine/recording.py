@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -118,30 +119,37 @@ class Tally(NamedTuple):
 
 def make_log(samples: int, motors: int, elements: int) -> Log:
     """Room for all samples of a run."""
-    return Log(
-        Exogenous.many(samples),
-        Ends.many(samples),
-        EndWorks.many(samples),
-        AlongWorks.many(samples),
-        OuterDecision.many(samples),
-        Derived.many(samples),
-        MotorState.many(samples, motors),
-        MotorDecision.many(samples, motors),
-        MotorDerived.many(samples, motors),
-        np.zeros((samples, motors + 1)),
-        np.zeros((samples, 5, 2 * elements)),
-    )
+    frames = (Exogenous, Ends, EndWorks, AlongWorks, OuterDecision, Derived)
+    rows, blocks = (frame.many(samples) for frame in frames), np.zeros((samples, 5, 2 * elements))
+    return Log._make((*rows, *motor_log(samples, motors), blocks))
+
+
+def motor_log(samples: int, motors: int) -> tuple[Any, ...]:
+    """Room for ``motors``, ``decisions``, ``motors_derived`` and ``kappa`` of a log."""
+    records = (frame.many(samples, motors) for frame in (MotorState, MotorDecision, MotorDerived))
+    return *records, np.zeros((samples, motors + 1))
 
 
 def make_tally(elements: int, motors: tuple[Motor, ...]) -> Tally:
     """Nothing seen yet."""
-    probes, records = Probe.many(3), MotorTally.many(len(motors))
+    return Tally(make_probes(elements), Measures.many(1), motor_tallies(motors), np.zeros(elements))
+
+
+def make_probes(elements: int) -> Probe:
+    """Probes at a quarter, half and three quarters of the cable."""
+    probes = Probe.many(3)
     for k, sigma in enumerate((0.25, 0.5, 0.75)):
         probes[k] = probe(sigma, elements)
+    return probes
+
+
+def motor_tallies(motors: tuple[Motor, ...]) -> MotorTally:
+    """Constants of every motor, and nothing seen yet."""
+    tallies = MotorTally.many(len(motors))
     for k, motor in enumerate(motors):
         limit = np.inf if motor.voltage_limit is None else motor.voltage_limit
-        records[k] = (motor_constants(motor).f23, limit, 0)
-    return Tally(probes, Measures.many(1), records, np.zeros(elements))
+        tallies[k] = (motor_constants(motor).f23, limit, 0)
+    return tallies
 
 
 def channels(log: Log, samples: int, driven: bool, wet: bool) -> dict[str, np.ndarray]:
@@ -149,15 +157,19 @@ def channels(log: Log, samples: int, driven: bool, wet: bool) -> dict[str, np.nd
 
     Without motors (``driven``) or water (``wet``) there are none of theirs.
     """
-    kept: list[Any] = [log.outside, log.ends, log.works, log.along, log.outer, log.derived]
-    if driven:
-        kept += [log.motors, log.motors["outside"], log.decisions, log.motors_derived]
-    named = {name: rows[name][:samples].copy() for rows in kept for name in rows.dtype.names if name in CHANNELS}
-    if driven:
-        named["kappa"] = log.kappa[:samples].copy()
+    records = log.outside, log.ends, log.works, log.along, log.outer, log.derived
+    named = named_fields(log, records, samples, driven)
     named |= _along_cable(*inside(log, samples), named, log.ends["slip"][:samples])
     dry = () if wet else tuple(force.work for force in IN_WATER)
     return {name: named[name] for name in CHANNELS if name in named and name not in dry}
+
+
+def named_fields(log: Any, records: Iterable[Any], samples: int, driven: bool) -> dict[str, np.ndarray]:
+    """Stored samples of the fields of records that are channels, with those of the motors if there are any."""
+    motors = (log.motors, log.motors["outside"], log.decisions, log.motors_derived) if driven else ()
+    fields = ((name, rows) for rows in (*records, *motors) for name in rows.dtype.names if name in CHANNELS)
+    named = {name: rows[name][:samples].copy() for name, rows in fields}
+    return named | ({"kappa": log.kappa[:samples].copy()} if driven else {})
 
 
 def inside(log: Log, samples: int) -> tuple[np.ndarray, np.ndarray]:
@@ -217,11 +229,21 @@ def probed(probe: Probe, state: PlantState) -> float:
 @glue
 def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bool) -> bool:
     """Take one control sample into the tally; False if the model has ended (non-finite, or too steep)."""
-    now, found, command = state.now[0], tally.measures[0], decision.outer[0].thrust_command
-    tip, thrust = now.ends.tip_displacement, now.thrust
+    now, found = state.now[0], tally.measures[0]
     note(found.quarter, probed(tally.probes[0], state))
     note(found.mid, probed(tally.probes[1], state))
     note(found.three_quarter, probed(tally.probes[2], state))
+    ends = now.ends
+    finite = measure_loop(tally, ends.tip_displacement, ends.tip_velocity, now.thrust, state, decision, after_fault)
+    return watch_slopes(state, tally.slopes) and finite
+
+
+@glue
+def measure_loop(
+    tally: Any, tip: float, tip_velocity: float, thrust: float, state: Any, decision: Decision, after_fault: bool
+) -> bool:
+    """Take what string and rope have in common into the tally; False if it is not finite."""
+    found, command = tally.measures[0], decision.outer[0].thrust_command
     note(found.tip, tip)
     if after_fault:
         note(found.tip_after_fault, tip)
@@ -229,7 +251,7 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
     note(found.thrust, thrust)
     # Python floats: infinite minus infinite is not worth a warning of numpy.
     note(found.gap, float(command) - float(thrust))
-    finite = np.isfinite(tip) and np.isfinite(now.ends.tip_velocity) and np.isfinite(thrust)
+    finite = np.isfinite(tip) and np.isfinite(tip_velocity) and np.isfinite(thrust)
     for k in range(state.motors.size):
         motor, voltage, seen = state.motors[k], decision.motors[k].motor_voltage, tally.motors[k]
         note(found.voltage, voltage)
@@ -240,7 +262,7 @@ def measure(tally: Tally, state: PlantState, decision: Decision, after_fault: bo
         finite = finite and np.isfinite(motor.motor_speed) and np.isfinite(motor.motor_current)
         finite = finite and np.isfinite(voltage)
     found.samples += 1
-    return watch_slopes(state, tally.slopes) and finite
+    return finite
 
 
 def root_mean_square(tally: Any, measure: Measure) -> float:
@@ -256,8 +278,17 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
     log.ends[row] = now.ends
     log.works[row] = now.works
     sum_works(state.work, now.works, log.along[row])
-    log.outer[row] = decision.outer[0]
     store_derived(log.derived[row], state, decision)
+    store_loop(log, row, tally, state, decision, kappa)
+    for node in range(state.blocks.shape[1]):
+        for column in range(state.blocks.shape[2]):
+            log.blocks[row, node, column] = state.blocks[PRESENT, node, column]
+
+
+@glue
+def store_loop(log: Any, row: int, tally: Any, state: Any, decision: Decision, kappa: np.ndarray) -> None:
+    """Store what string and rope have in common: the controller and the motors."""
+    log.outer[row] = decision.outer[0]
     for k in range(state.motors.size):
         log.motors[row, k] = state.motors[k]
         log.decisions[row, k] = decision.motors[k]
@@ -265,9 +296,6 @@ def store(log: Log, row: int, tally: Tally, state: PlantState, decision: Decisio
         log.motors_derived[row, k].motor_disturbance = disturbance
     for k in range(kappa.size):
         log.kappa[row, k] = kappa[k]
-    for node in range(state.blocks.shape[1]):
-        for column in range(state.blocks.shape[2]):
-            log.blocks[row, node, column] = state.blocks[PRESENT, node, column]
 
 
 @kernel

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import MotorReadings, Readings, TipReadings
+from umbilical.control.contract import Decision, MotorReadings, Readings, TipReadings
 from umbilical.engine.stepping import PlantState
 from umbilical.frames import Frame, as_array, integer, numbers, real
 from umbilical.plant import cable
@@ -47,6 +47,15 @@ class SensorState(NamedTuple):
     count: np.ndarray
     tip: np.ndarray
     motors: np.ndarray
+
+
+class Side(NamedTuple):
+    """Sensors of one horizontal direction, and what is decided on their readings."""
+
+    sensors: SensorErrors
+    memory: SensorState
+    readings: Readings
+    decision: Decision
 
 
 def make_sensors(scenario: Scenario) -> SensorErrors:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from umbilical.compile import announce
 from umbilical.control import cascade
@@ -53,7 +54,7 @@ def set_up(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Se
     announce(loop_of(scenario, held=held))
     jumps = published_jumps(scenario)
     clock = make_clock(scenario.duration, scenario.control.period, chosen_step(scenario), jumps)
-    motors = len(scenario.motors)
+    motors, elements = len(scenario.motors), scenario.grid.elements
     sensors, readings = make_sensors(scenario), make_readings(motors)
     world = loop.World(
         make_plant(scenario, booked=stored),
@@ -64,19 +65,17 @@ def set_up(scenario: Scenario, *, stored: bool = True, held: bool = False) -> Se
         make_decision(motors),
     )
     settings, memory = cascade.make_settings(scenario), cascade.make_state(scenario)
-    return Setup(clock, world, _record(scenario, clock, stored), NoiseSource(sensors, scenario.seed), settings, memory)
+    record = make_record(scenario, clock, stored, make_log, make_tally(elements, scenario.motors), elements)
+    return Setup(clock, world, record, NoiseSource(sensors, scenario.seed), settings, memory)
 
 
-def _record(scenario: Scenario, clock: Clock, stored: bool) -> loop.RunRecord:
+def make_record(
+    scenario: Scenario, clock: Clock, stored: bool, make_log: Callable[..., Any], tally: Any, elements: int
+) -> loop.RunRecord:
+    """Room for the samples that are kept, the last one always; of the string's log or of the rope's."""
     every = max(1, round(scenario.output.interval / clock.period) if stored else clock.periods)
     samples = clock.periods // every + 1 + (clock.periods % every > 0)
     first = faults.first_fault(scenario.faults)
     fault_update = clock.periods + 1 if first is None else count_up(first, clock.period)
-    elements = scenario.grid.elements
-    return loop.RunRecord(
-        make_log(samples, len(scenario.motors), elements),
-        make_tally(elements, scenario.motors),
-        every,
-        fault_update,
-        clock.periods,
-    )
+    log = make_log(samples, len(scenario.motors), elements)
+    return loop.RunRecord(log, tally, every, fault_update, clock.periods, clock.period)

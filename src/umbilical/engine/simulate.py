@@ -12,9 +12,11 @@ import numpy as np
 
 from umbilical.control.contract import Controller
 from umbilical.engine import loop
+from umbilical.engine.base import Model
 from umbilical.engine.ending import Ending
 from umbilical.engine.episode import Episode
-from umbilical.engine.model import Model, make_model
+from umbilical.engine.model import make_model
+from umbilical.engine.resolution import on_chosen_grid
 from umbilical.engine.schedule import end_of_stretch, stretch
 from umbilical.errors import ControllerError, expect
 from umbilical.library import admit
@@ -73,8 +75,6 @@ def _on_its_grid(
     expect(scenario, "Scenario", "load")
     if scenario.grid.tolerance is None:
         return scenario, ()
-    from umbilical.engine.resolution import on_chosen_grid
-
     return on_chosen_grid(scenario, lambda fixed: _measure(fixed, controller), progress)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from umbilical import files
 from umbilical.errors import OutputError, expect
+from umbilical.plant.exogenous import named_jumps
 
 if TYPE_CHECKING:
     import xarray
@@ -184,8 +185,6 @@ def finish(ax: Axes, run: Run, title: str, ylabel: str) -> Axes:
 
 def mark_events(ax: Axes, run: Run) -> None:
     """Dashed lines where faults begin and end, dotted ones where anything else jumps, all of them named."""
-    from umbilical.plant.exogenous import named_jumps
-
     last = float(ax.dataLim.x1)  # of what is shown
     named = fault_words(run)
     others = {t: text for t, text in named_jumps(run.scenario).items() if 0.0 < t < last and t not in named}

@@ -10,21 +10,10 @@ from umbilical.compile import entry_kernel, glue
 from umbilical.control.allocation.table import Directions, allocate_both
 from umbilical.control.cascade import CascadeSettings, CascadeState, start, update_motors, update_outer
 from umbilical.control.outer.table import NONE
-from umbilical.engine.loop import FINISHED
-from umbilical.engine.rope.recording import RopeLog, RopeTally, measure_rope, store_rope
+from umbilical.engine.loop import FINISHED, RunRecord
+from umbilical.engine.rope.recording import measure_rope, store_rope
 from umbilical.engine.rope.world import RopeWorld, advance_rope_plant, enter_rope_step, sense_rope
 from umbilical.plant.rope.outside import RopeInputs
-
-
-class RopeRecord(NamedTuple):
-    """What is kept of a run; as ``engine.loop.Record``, with the control period, s."""
-
-    log: RopeLog
-    tally: RopeTally
-    every: int
-    fault_update: int
-    last_update: int
-    period: float
 
 
 class RopeControl(NamedTuple):
@@ -81,7 +70,7 @@ def actuate_rope(world: RopeWorld) -> None:
 
 
 @glue
-def keep_rope(world: RopeWorld, record: RopeRecord, update: int, kappa: np.ndarray) -> bool:
+def keep_rope(world: RopeWorld, record: RunRecord, update: int, kappa: np.ndarray) -> bool:
     """Take one control sample into the record; False if the model has ended."""
     good = measure_rope(record.tally, world, update >= record.fault_update, update * record.period)
     if good and (update % record.every == 0 or update == record.last_update):
@@ -110,7 +99,7 @@ def advance_rope_period(world: RopeWorld, inputs: RopeInputs, begin: int, end: i
 
 @entry_kernel
 def run_rope_steps(
-    world: RopeWorld, control: RopeControl, record: RopeRecord, inputs: RopeInputs, first: np.ndarray,
+    world: RopeWorld, control: RopeControl, record: RunRecord, inputs: RopeInputs, first: np.ndarray,
     noise: np.ndarray, across: np.ndarray, begin: int, periods: tuple[int, int], inside: bool, driven: bool,
     decided: bool,
 ) -> int:  # fmt: skip

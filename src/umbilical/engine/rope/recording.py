@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.compile import glue, kernel
 from umbilical.control.contract import MotorDecision, OuterDecision
-from umbilical.engine.recording import Measures, MotorDerived, MotorTally, note
+from umbilical.engine.recording import (
+    Measures,
+    MotorDerived,
+    MotorTally,
+    Probe,
+    make_probes,
+    measure_loop,
+    motor_log,
+    motor_tallies,
+    named_fields,
+    note,
+    store_loop,
+)
 from umbilical.engine.rope.world import RopeNow, RopeWorld
 from umbilical.frames import Frame, integer, real
-from umbilical.plant.layout import integrate, probe, to_nodal
+from umbilical.plant.layout import integrate, to_nodal
 from umbilical.plant.motors import MotorState
 from umbilical.plant.rope.records import POWERS, RopeConstants
 from umbilical.quantities import CHANNELS
-from umbilical.relations.formulas import motor_constants
 from umbilical.scenario.hardware import Motor
 
 MOST_STRETCH = 2.0
@@ -68,15 +79,14 @@ class RopeTally(NamedTuple):
     """Running measures over every control sample.
 
     Attributes:
-        places: element of l/4, l/2, 3l/4, shape (3,), and weights, shape (3, 5), of its slopes.
+        probes: at l/4, l/2 and 3l/4.
         measures, watch: one record each.
         motors: one record per motor.
         start: place of the body at the start, m, shape (3,).
         snaps: instant, s, and peak, N, of the first snaps, shape (MOST_SNAPS, 2).
     """
 
-    elements: np.ndarray
-    weights: np.ndarray
+    probes: Probe
     measures: Measures
     watch: SnapWatch
     motors: MotorTally
@@ -86,43 +96,24 @@ class RopeTally(NamedTuple):
 
 def make_rope_log(samples: int, motors: int, elements: int) -> RopeLog:
     """Room for all samples of a run."""
-    return RopeLog(
-        RopeNow.many(samples),
-        OuterDecision.many(samples),
-        OuterDecision.many(samples),
-        np.zeros((samples, len(POWERS))),
-        MotorState.many(samples, motors),
-        MotorDecision.many(samples, motors),
-        MotorDerived.many(samples, motors),
-        np.zeros((samples, motors + 1)),
-        np.zeros((samples, 5, 6 * elements)),
-    )
+    frames = (frame.many(samples) for frame in (RopeNow, OuterDecision, OuterDecision))
+    works, nodes = np.zeros((samples, len(POWERS))), np.zeros((samples, 5, 6 * elements))
+    return RopeLog._make((*frames, works, *motor_log(samples, motors), nodes))
 
 
 def make_rope_tally(elements: int, motors: tuple[Motor, ...], window: float, start: np.ndarray) -> RopeTally:
     """Nothing seen yet; ``window`` as in :class:`SnapWatch`."""
-    probes = [probe(sigma, elements) for sigma in (0.25, 0.5, 0.75)]
-    records, watch = MotorTally.many(len(motors)), SnapWatch.many(1)
-    for k, motor in enumerate(motors):
-        limit = np.inf if motor.voltage_limit is None else motor.voltage_limit
-        records[k] = (motor_constants(motor).f23, limit, 0)
+    watch, snaps = SnapWatch.many(1), np.zeros((MOST_SNAPS, 2))
     watch["lowest_tension"], watch["smallest_stretch"] = np.inf, np.inf
     watch["snap_window"], watch["snap_time"] = window, -np.inf
-    return RopeTally(
-        np.array([element for element, _ in probes]),
-        np.array([weights for _, weights in probes]),
-        Measures.many(1),
-        watch,
-        records,
-        start.copy(),
-        np.zeros((MOST_SNAPS, 2)),
-    )
+    probes, tallies = make_probes(elements), motor_tallies(motors)
+    return RopeTally(probes, Measures.many(1), watch, tallies, start.copy(), snaps)
 
 
 @kernel
 def displacement_at(tally: RopeTally, world: RopeWorld, k: int) -> float:
     """x of the cable at the k-th probe, m."""
-    rope, e, w = world.state.rope, tally.elements[k], tally.weights[k]
+    rope, e, w = world.state.rope, tally.probes[k].element, tally.probes[k].slope_weights
     total = rope.joints[0, e]
     for j in range(5):
         total += w[j] * rope.now[j, e]
@@ -174,27 +165,12 @@ def stretches(world: RopeWorld) -> tuple[float, float]:
 @glue
 def measure_rope(tally: RopeTally, world: RopeWorld, after_fault: bool, time: float) -> bool:
     """Take one control sample into the tally; False if the model has ended (not finite, or torn)."""
-    now, found, command = world.state.now[0], tally.measures[0], world.along.decision.outer[0].thrust_command
+    state, decision = world.state, world.along.decision
+    now, found = state.now[0], tally.measures[0]
     note(found.quarter, displacement_at(tally, world, 0))
     note(found.mid, displacement_at(tally, world, 1))
     note(found.three_quarter, displacement_at(tally, world, 2))
-    note(found.tip, now.tip_displacement)
-    if after_fault:
-        note(found.tip_after_fault, now.tip_displacement)
-    note(found.command, command)
-    note(found.thrust, now.thrust)
-    note(found.gap, float(command) - float(now.thrust))
-    finite = np.isfinite(now.tip_displacement) and np.isfinite(now.tip_velocity) and np.isfinite(now.thrust)
-    for k in range(world.state.motors.size):
-        motor, voltage = world.state.motors[k], world.along.decision.motors[k].motor_voltage
-        note(found.voltage, voltage)
-        note(found.speed, motor.motor_speed)
-        note(found.current, motor.motor_current)
-        if abs(voltage) >= tally.motors[k].voltage_limit:
-            tally.motors[k].samples_at_limit += 1
-        finite = finite and np.isfinite(motor.motor_speed) and np.isfinite(motor.motor_current)
-        finite = finite and np.isfinite(voltage)
-    found.samples += 1
+    finite = measure_loop(tally, now.tip_displacement, now.tip_velocity, now.thrust, state, decision, after_fault)
     lowest, highest = stretches(world)
     watch_tension(tally, now, lowest, time)
     return finite and highest < MOST_STRETCH
@@ -205,15 +181,8 @@ def store_rope(log: RopeLog, row: int, tally: RopeTally, world: RopeWorld, kappa
     """Store one sample of everything."""
     state = world.state
     log.now[row] = state.now[0]
-    log.outer[row] = world.along.decision.outer[0]
     log.across[row] = world.across.decision.outer[0]
-    for k in range(state.motors.size):
-        log.motors[row, k] = state.motors[k]
-        log.decisions[row, k] = world.along.decision.motors[k]
-        disturbance = tally.motors[k].f23 * state.motors[k].outside.voltage_disturbance
-        log.motors_derived[row, k].motor_disturbance = disturbance
-    for k in range(kappa.size):
-        log.kappa[row, k] = kappa[k]
+    store_loop(log, row, tally, state, world.along.decision, kappa)
     for k in range(state.rope.work.size):
         log.works[row, k] = state.rope.work[k]
     for j in range(5):
@@ -223,17 +192,12 @@ def store_rope(log: RopeLog, row: int, tally: RopeTally, world: RopeWorld, kappa
 
 def rope_channels(log: RopeLog, samples: int, driven: bool, rope: RopeConstants) -> dict[str, np.ndarray]:
     """The first ``samples`` stored samples by name, in the order of ``CHANNELS``."""
-    kept: list[Any] = [log.now["outside"], log.now, log.outer]
-    if driven:
-        kept += [log.motors, log.motors["outside"], log.decisions, log.motors_derived]
-    named = {name: rows[name][:samples].copy() for rows in kept for name in rows.dtype.names if name in CHANNELS}
+    named = named_fields(log, (log.now["outside"], log.now, log.outer), samples, driven)
     for name in ("thrust_command", "boundary_error", "disturbance_estimate"):
         named[f"{name}_across"] = log.across[name][:samples].copy()
     named |= {name: log.works[:samples, k].copy() for k, name in enumerate(POWERS)}
     named["disturbance"] = named["payload_force"] + named["thrust"] - named["thrust_command"]
     named["vessel_displacement"] = named["vessel_position"][:, 0].copy()
-    if driven:
-        named["kappa"] = log.kappa[:samples].copy()
     named |= along_rope(log.nodes[:samples], named, rope)
     return {name: named[name] for name in CHANNELS if name in named}
 

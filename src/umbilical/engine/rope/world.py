@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from umbilical.compile import glue, kernel
-from umbilical.control.contract import Decision, MotorDecision, Readings, TipReadings
-from umbilical.engine.sensing import SensorErrors, SensorState, add_errors
+from umbilical.control.contract import MotorDecision, TipReadings
+from umbilical.engine.sensing import Side, add_errors
 from umbilical.frames import Frame, part, real, vector
 from umbilical.plant.exogenous import END, MIDDLE, START, Exogenous
 from umbilical.plant.motors import MotorParameters, MotorState, advance_motor
@@ -69,15 +69,6 @@ class RopePlantState(NamedTuple):
     motors: MotorState
     rope: RopeState
     stage: RopeOutside
-
-
-class Side(NamedTuple):
-    """Sensors and decisions of one horizontal direction."""
-
-    sensors: SensorErrors
-    memory: SensorState
-    readings: Readings
-    decision: Decision
 
 
 class RopeWorld(NamedTuple):

@@ -12,6 +12,7 @@ from umbilical.plant.checks.motion import sampled_top, sunk, wave_terms
 from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
+from umbilical.plant.rope.assemble import rope_step
 from umbilical.plant.top import top_at
 from umbilical.relations.formulas import motor_rates, steady_speed
 from umbilical.relations.instants import count_up
@@ -54,8 +55,6 @@ def chosen_step(scenario: Scenario) -> float:
     (0.001, 0.0003333333333333333)
     """
     if scenario.model == "rope":
-        from umbilical.plant.rope.assemble import rope_step  # with its kernels, which a string needs none of
-
         return _whole_part(scenario.control.period, min(scenario.grid.step, rope_step(scenario)))
     step_for_waves = wave_step(
         scenario.cable, scenario.payload, scenario.environment, scenario.winch, scenario.duration, scenario.grid

@@ -36,6 +36,11 @@ class RopeInputs(NamedTuple):
     loads: Array
     water: WaterColumn
 
+    @property
+    def refresh(self) -> Array:
+        """Whether something jumped at the start of each step."""
+        return self.plane.refresh
+
 
 def vessel_in_space(scenario: Scenario, t: ArrayLike, side: Side = "right") -> tuple[Any, Any]:
     """Place, m, and velocity, m/s, of the sheave at instants of any shape: shape (..., 3)."""

@@ -131,7 +131,6 @@ class RopeState(NamedTuple):
         outside: the present instant, one record.
         ends: one record.
         power, work: terms of the power balance, W and J, in the order of :data:`POWERS`.
-        slack: lowest and highest tension so far at each node, N, shape (2, 5, n).
     """
 
     now: np.ndarray
