@@ -83,10 +83,14 @@ def test_the_map_covers_the_cable_and_hangs_down(run):
     axes = plots.plot_cable(run)
     bottom, top = axes.get_ylim()
     assert (bottom, top) == (pytest.approx(float(run["length"].max())), 0.0)
-    mesh = axes.collections[0]
-    assert np.abs(np.asarray(mesh.get_array())).max() == pytest.approx(float(np.abs(run["displacement"]).max()))
-    low, high = mesh.get_clim()
-    assert low == -high
+    (picture,) = axes.images
+    largest = float(np.abs(run["displacement"]).max())
+    assert picture.get_clim() == (-largest, largest)
+    shown = np.asarray(picture.get_array())
+    assert np.nanmax(np.abs(shown)) == pytest.approx(largest, rel=0.02)
+    end = float(run["length"][-1]) / bottom * shown.shape[0]
+    assert np.isfinite(shown[: int(end) - 1, -1]).all()
+    assert np.isnan(shown[int(end) + 1 :, -1].astype(float)).all()
 
 
 @pytest.mark.parametrize("sigma", [0.0, 0.1, 0.25, 0.5, 0.999, 1.0])

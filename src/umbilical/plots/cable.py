@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 PLACES = {"l/4": 0.25, "l/2": 0.5, "3l/4": 0.75, "l": 1.0}
 """Where the paper's Fig. 3 looks, as shares of the length."""
-COLUMNS = 600
-"""Instants in a map; more would not show."""
+COLUMNS, ROWS = 900, 400
+"""Instants and depths in a map; more would not show."""
 
 
 def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
@@ -35,18 +35,29 @@ def plot_cable(run: Run, *, ax: Axes | None = None) -> Axes:
     """
     ax = axes_for(run, ax)
     y = run["displacement"]
-    chosen = y.isel(time=slice(None, None, max(1, y.sizes["time"] // COLUMNS)))
-    length = run["length"].sel(time=chosen["time"]).values
-    depth = chosen["sigma"].values[None, :] * length[:, None]
-    times = np.broadcast_to(chosen["time"].values[:, None], depth.shape)
-    size = float(np.abs(chosen.values).max()) or 1.0
-    colours = {"cmap": "RdBu_r", "vmin": -size, "vmax": size}
-    picture = ax.pcolormesh(times, depth, chosen.values, shading="gouraud", rasterized=True, **colours)
+    values, deepest = _seen(run)
+    size = float(abs(y).max()) or 1.0
+    where = (float(run["time"][0]), float(run["time"][-1]), deepest, 0.0)
+    picture = ax.imshow(values, cmap="RdBu_r", vmin=-size, vmax=size, extent=where, aspect="auto")
     as_figure(ax).colorbar(picture, ax=ax, label=axis_label(y), format="%.3g", pad=0.02)
     finish(ax, run, y.attrs["long_name"], "distance from the vessel $x$ [m]")
     ax.grid(visible=False)
-    ax.set_ylim(float(length.max()), 0.0)
     return ax
+
+
+def _seen(run: Run) -> tuple[np.ndarray, float]:
+    """Displacement in rows of equal depth and columns of equal time, NaN below the cable's end, and the largest depth.
+
+    A mesh that follows the cable would be drawn triangle by triangle: seconds.
+    """
+    time, sigma = run["time"].values, run["sigma"].values
+    columns = time[0] + (np.arange(COLUMNS) + 0.5) / COLUMNS * (time[-1] - time[0])
+    nearest = np.searchsorted((time[1:] + time[:-1]) / 2.0, columns)
+    length, y = run["length"].values[nearest], run["displacement"].values[nearest]
+    deepest = float(run["length"].max())
+    depth = (np.arange(ROWS) + 0.5) / ROWS * deepest
+    seen = [np.interp(depth, sigma * end, row, right=np.nan) for end, row in zip(length, y, strict=True)]
+    return np.transpose(seen), deepest
 
 
 def plot_positions(run: Run, *, ax: Axes | None = None) -> Axes:
