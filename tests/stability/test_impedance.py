@@ -9,6 +9,8 @@ from scipy.sparse.linalg import spsolve
 
 from tests.support.spectra import tip_response
 from umbilical.engine.linear import linearise_plant
+from umbilical.plant.forces import table
+from umbilical.plant.forces.force import Force
 from umbilical.stability.impedance import (
     FixedLengthCable,
     cable_wave_number,
@@ -43,6 +45,16 @@ def test_static_stiffness():
     displacement, slope = tip_response(PAPER, np.array([1e-5j]))
     assert displacement[0] == pytest.approx(np.log(3.0) / 20.0, rel=1e-6)
     assert slope[0] == pytest.approx(1.0 / 5000.0, rel=1e-6)
+
+
+def test_a_force_that_holds_the_rov_is_a_spring_beside_the_cable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At rest displacement per force is 1/(k + the cable's own stiffness)."""
+    spring = Force("work_payload_force", "payload", stiffness=lambda scenario, at: 40.0)
+    free = hanging_cable(string(400.0), 400.0)
+    monkeypatch.setattr(table, "FORCES", (*table.FORCES, spring))
+    held = hanging_cable(string(400.0), 400.0)
+    alone, both = (tip_response(cable, np.array([1e-5j]))[0][0].real for cable in (free, held))
+    assert 1.0 / both == pytest.approx(1.0 / alone + 40.0, rel=1e-6)
 
 
 def test_constant_tension_with_a_mass():

@@ -142,7 +142,8 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
 
 
 def _problem(key: str, value: str, bound: str, reason: str) -> Problem:
-    return Problem(key, value, bound, reason, "the boundary law with a slope_gain of, for example, 5 m/s")
+    fix = "the boundary law, as in `umbilical presets --copy paper`: `certify` names a slope_gain that is proved"
+    return Problem(key, value, bound, reason, fix)
 
 
 def slab_edges(winch: Winch, duration: float) -> np.ndarray:

@@ -8,6 +8,7 @@ from typing import Any
 from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.base import Record
 from umbilical.scenario.scenario import Scenario
+from umbilical.stability.judgement import law_that_works
 
 KNOWN: dict[str, frozenset[str]] = {
     name: frozenset(keys.split())
@@ -41,15 +42,8 @@ def check_known(scenario: Scenario) -> None:
     """
     problems = [*_unknown_model(scenario), *_unknown(scenario.control, "control")]
     if scenario.control.law.kind == "none":
-        problems.append(
-            Problem(
-                "control.law.kind",
-                "none",
-                "a law",
-                "without a law there is no controller to write",
-                "choose pd or boundary",
-            )
-        )
+        reason = "without a law there is no controller to write"
+        problems.append(Problem("control.law.kind", "none", "a law", reason, law_that_works(scenario)))
     if problems:
         raise ScenarioError(problems, scenario.name)
 

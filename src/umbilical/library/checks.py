@@ -12,19 +12,8 @@ from umbilical.control.observers import disturbance, high_gain
 from umbilical.control.outer import table as outer
 from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
-from umbilical.plant.checks import (
-    equipment,
-    motion,
-    rope,
-    seas,
-    sizes,
-    statics,
-    steps,
-    stretch,
-    timeline,
-    water,
-    weights,
-)
+from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, stretch, timeline, water, weights
+from umbilical.plant.checks import rope as of_a_rope
 from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
@@ -110,5 +99,5 @@ OF_THE_STRING = (
 def checks_for(model: str) -> tuple[Check, ...]:
     """The checks of a scenario with this model of the cable."""
     if model == "rope":
-        return (*(check for check in CHECKS if check not in OF_THE_STRING), *rope.CHECKS)
+        return (*(check for check in CHECKS if check not in OF_THE_STRING), *of_a_rope.CHECKS)
     return CHECKS

@@ -29,7 +29,7 @@ import numpy as np
 from umbilical.plant.current import speeds_at
 from umbilical.plant.exogenous import current_at
 from umbilical.plant.forces.force import OperatingPoint
-from umbilical.plant.forces.table import dampings
+from umbilical.plant.forces.table import dampings, stiffness
 from umbilical.relations.tension import hanging_of, net_gravity, tension, tension_gain
 from umbilical.relations.water import line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
@@ -51,6 +51,7 @@ class FixedLengthCable:
         weight: of a metre of cable, which is what the tension gains on it, N/m.
         length: m.
         pieces: length, m, and damping, N s/m2, of each from the ROV up; none where the damping is even.
+        payload_spring: what forces hold the ROV with, N/m.
     """
 
     line_density: float
@@ -61,6 +62,7 @@ class FixedLengthCable:
     weight: float
     length: float
     pieces: tuple[tuple[float, float], ...] = ()
+    payload_spring: float = 0.0
 
     @property
     def tip_wave_speed(self) -> float:
@@ -118,6 +120,7 @@ def hanging_cable(scenario: Scenario, length: float) -> FixedLengthCable:
         weight=tension_gain(1.0, net, hung),
         length=length,
         pieces=pieces,
+        payload_spring=stiffness(scenario, at),
     )
 
 
@@ -199,5 +202,5 @@ def upward_asymptote(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
 
 
 def payload_stiffness(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
-    """m p^2 + c_tip p, N/m: force over displacement of the ROV alone."""
-    return p * (cable.payload_mass * p + cable.payload_damping)
+    """m p^2 + c_tip p + k, N/m: force over displacement of the ROV alone."""
+    return p * (cable.payload_mass * p + cable.payload_damping) + cable.payload_spring

@@ -8,15 +8,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from umbilical.errors import Problem, ScenarioError, expect
+from umbilical.library.admit import admit
 from umbilical.plant import signals
 from umbilical.plant.top import top_at
 from umbilical.scenario.scenario import Scenario
+from umbilical.scenario.text import literal
 from umbilical.stability.impedance import FixedLengthCable, hanging_cable
 from umbilical.stability.limits import Margins, find_limits
 from umbilical.stability.nyquist import Stability, Sweep, near_poles, stability, sweep_loop
@@ -28,6 +31,8 @@ POINTS = 400
 """Frequencies of the reflection."""
 USUAL_SLOPE = 0.01
 """Slope at the ROV whose pull stands in as the operating thrust where no steady force acts."""
+DAMPERS = (1.0, 0.3, 0.1)
+"""Shares of the cable's impedance that are tried as a damper at the ROV."""
 INSTANTS = 1001
 """Instants of a run at which a mean force and the lengths are taken."""
 
@@ -154,10 +159,27 @@ def check_loop(scenario: Scenario) -> None:
     law = scenario.control.law
     if not law.closes_loop:
         wanted, reason = "a law that closes a loop", "margins say what a loop survives"
-        problem = Problem("control.law.kind", law.kind, wanted, reason, "kind = 'boundary' or 'pd'")
+        problem = Problem("control.law.kind", law.kind, wanted, reason, law_that_works(scenario))
         raise ScenarioError([problem], scenario.name)
     if scenario.ideal_thruster and law.reads_rates and law.boundary_gains:
         reason = "with an ideal thruster the rate of the slope jumps at every sample, which has no linear response"
         fix = "rates = 'observer', or ideal_thruster = false"
         problem = Problem("control.law.rates", "sensor", "observer, or motors in the loop", reason, fix)
         raise ScenarioError([problem], scenario.name)
+
+
+def law_that_works(scenario: Scenario) -> str:
+    """A damper that is stable at the lengths of the run, as keys of a scenario file; where none is, where to look."""
+    impedance, period = hanging_cable(scenario, usual_lengths(scenario)[0]).tip_impedance, scenario.control.period
+    for share in DAMPERS:
+        law = {"kind": "pd", "position_gain": 0.0, "velocity_gain": float(f"{share * impedance:.2g}")}
+        observer = {"time_constant": 5.0 * period, "damping": 2.0}
+        changes = {"control.law": law, "control.velocity_observer": observer}
+        with suppress(ScenarioError):
+            new = scenario.replace(changes)
+            admit(new)
+            if all(margins_at(new, length).stable for length in usual_lengths(scenario)):
+                return f"{' with '.join(f'{key} = {literal(value)}' for key, value in changes.items())}; tried, stable"
+    return (
+        "a law with gains, as in `umbilical presets --copy paper`; `umbilical design` chooses those of the boundary law"
+    )

@@ -211,19 +211,11 @@ def check_design(scenario: Scenario) -> None:
     Raises:
         ScenarioError: no boundary law, or one without its observers.
     """
-    check_loop(scenario)
     control, law = scenario.control, scenario.control.law
     observed = control.velocity_observer and control.slope_observer and control.disturbance_observer
     if not law.boundary_gains or law.reads_rates or not observed:
-        raise ScenarioError(
-            [
-                Problem(
-                    "control.law",
-                    law.kind,
-                    "the boundary law with velocity, slope and disturbance observer",
-                    "beta, k_a, the observers' constants and k_s are what a design chooses",
-                    "kind = 'boundary', rates = 'observer' and all three observers",
-                )
-            ],
-            scenario.name,
-        )
+        wanted = "the boundary law with velocity, slope and disturbance observer"
+        reason = "beta, k_a, the observers' constants and k_s are what a design chooses"
+        fix = "kind = 'boundary', rates = 'observer' and all three observers, as in `umbilical presets --copy paper`"
+        raise ScenarioError([Problem("control.law", law.kind, wanted, reason, fix)], scenario.name)
+    check_loop(scenario)

@@ -49,8 +49,8 @@ def no_decay(**_: Any) -> None:
     return
 
 
-def no_damping(scenario: Scenario, at: OperatingPoint) -> float:
-    """A force that does not change with the velocity."""
+def unchanged(scenario: Scenario, at: OperatingPoint) -> float:
+    """A force that does not change with the velocity, or not with the displacement."""
     return 0.0
 
 
@@ -64,13 +64,15 @@ class Force(NamedTuple):
             (4 n + 1,) or a number; N s/m on the ROV.
         decay: the most it takes, from sections of a scenario by name; None where it takes nothing.
         checks: across the fields of its record; parameters name the sections they read.
+        stiffness: minus its derivative by the displacement of the ROV there, N/m; of a force on the ROV.
     """
 
     work: str
     on: str = "cable"
-    damping: Callable[[Scenario, OperatingPoint], Any] = no_damping
+    damping: Callable[[Scenario, OperatingPoint], Any] = unchanged
     decay: Callable[..., Decay | None] = no_decay
     checks: tuple[Callable[..., Iterator[Finding]], ...] = ()
+    stiffness: Callable[[Scenario, OperatingPoint], float] = unchanged
 
 
 @row_kernel

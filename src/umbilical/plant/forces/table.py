@@ -354,3 +354,8 @@ def decays(cable: Cable, payload: Payload, environment: Environment) -> Iterator
 def dampings(scenario: Scenario, at: OperatingPoint, on: str) -> list[Any]:
     """What every force ``on`` the "cable" (N s/m2) or the "payload" (N s/m) damps at an operating point."""
     return [force.damping(scenario, at) for force in FORCES if force.on == on]
+
+
+def stiffness(scenario: Scenario, at: OperatingPoint) -> float:
+    """What all forces hold the ROV with at an operating point, N/m."""
+    return sum(force.stiffness(scenario, at) for force in FORCES)
