@@ -14,34 +14,12 @@ FILES = {
 }
 LATER = {
     "faces.certificate": {"certificate"},
-    "faces.study": {"studies.members", "studies.sensitivity"},
-    "faces.tuning": {"studies.tune"},
-    "plots.study": {"studies.sensitivity"},
     "run": {"umbilical"},
-    "studies.constraints": {"certificate.certify", "stability.judgement"},
-    "studies.load": {"studies.results"},
-    "studies.results": {"studies.load"},
-    "studies.rows": {"formats"},
-    "studies.store": {"compile"},
-    "studies.study": {"studies.load"},
     "verify.verification": {"plots"},
 }
 """What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would
 be a circle at import."""
-CIRCLES = {
-    frozenset(
-        {
-            "studies.checks",
-            "studies.controllers",
-            "studies.designs",
-            "studies.load",
-            "studies.members",
-            "studies.results",
-            "studies.rows",
-            "studies.study",
-        }
-    ),
-}
+CIRCLES: set[frozenset[str]] = set()
 """Files that import one another, imports inside functions counted."""
 
 

@@ -130,7 +130,7 @@ def test_a_scenario_beside_the_study_is_found(tmp_path):
 def test_text_round_trip():
     import tomllib
 
-    from umbilical.studies.load import admit_study
+    from umbilical.studies.study import admit_study
 
     study = small_study()
     assert admit_study(tomllib.loads(study.to_toml()), "again") == study

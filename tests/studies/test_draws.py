@@ -8,7 +8,7 @@ from scipy import stats
 
 from tests.support.studies import small_study
 from umbilical.studies.designs import child_seed, design_size, points
-from umbilical.studies.distributions import Choice, GridPoints, LogUniform, Normal, Uniform, draw_value
+from umbilical.studies.distributions import Choice, GridPoints, LogUniform, Normal, Uniform
 from umbilical.studies.load import load_study
 from umbilical.studies.members import Draws
 
@@ -25,13 +25,13 @@ CONTINUUM = [None, None, None]
     ],
 )
 def test_quantiles_are_those_of_the_distribution(distribution, truth):
-    assert np.allclose([draw_value(distribution, share) for share in SHARES], truth.ppf(SHARES), rtol=1e-9)
+    assert np.allclose([distribution.at(share) for share in SHARES], truth.ppf(SHARES), rtol=1e-9)
 
 
 def test_every_single_value_is_equally_likely():
-    chosen = [draw_value(Choice(kind="choice", values=("a", "b", "c")), share) for share in SHARES]
+    chosen = [Choice(kind="choice", values=("a", "b", "c")).at(share) for share in SHARES]
     assert {name: chosen.count(name) for name in "abc"} == {"a": 333, "b": 333, "c": 333}
-    assert [draw_value(GridPoints(kind="grid", low=0.0, high=1.0, count=3), share) for share in (0.1, 0.5, 0.9)] == [
+    assert [GridPoints(kind="grid", low=0.0, high=1.0, count=3).at(share) for share in (0.1, 0.5, 0.9)] == [
         0.0,
         0.5,
         1.0,
@@ -47,19 +47,19 @@ def test_every_single_value_is_equally_likely():
     ],
 )
 def test_steps_begin_at_the_lowest_value_and_stay_below_the_highest(low, high, step, expected):
-    assert {draw_value(Uniform(kind="uniform", low=low, high=high, step=step), share) for share in SHARES} == expected
+    assert {Uniform(kind="uniform", low=low, high=high, step=step).at(share) for share in SHARES} == expected
 
 
 def intervals(distribution) -> dict[float, float]:
     """Probability of each value, exactly: the shares at which the quantile function changes, found by bisection."""
     found, below = {}, 0.0
     while below < 1.0:
-        value, above = draw_value(distribution, np.nextafter(below, 1.0)), 1.0
-        if draw_value(distribution, 1.0) != value:
+        value, above = distribution.at(np.nextafter(below, 1.0)), 1.0
+        if distribution.at(1.0) != value:
             low = below
             while above - low > 1e-12:
                 middle = (low + above) / 2.0
-                low, above = (middle, above) if draw_value(distribution, middle) == value else (low, middle)
+                low, above = (middle, above) if distribution.at(middle) == value else (low, middle)
         found[value], below = above - below, above
     return found
 

@@ -11,13 +11,14 @@ from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.text import shown_unit, text_table, wrapped
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
+from umbilical.studies.members import Draws
 from umbilical.studies.rows import STATUSES
+from umbilical.studies.sensitivity import Influence, rank
 from umbilical.studies.statistics import interval_text, percentage
 from umbilical.studies.sweep import worst
 
 if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult
-    from umbilical.studies.sensitivity import Influence
     from umbilical.studies.study import Study
 
 USUAL = ("tip_peak", "tip_rms", "mid_rms", "effort_rms")
@@ -140,8 +141,6 @@ def _sensitivity_text(result: StudyResult, metric: str) -> str:
 
 def _influences(result: StudyResult, metric: str) -> dict[str, list[Influence] | str]:
     """By arm what matters, or why nobody can tell."""
-    from umbilical.studies.sensitivity import rank
-
     found: dict[str, list[Influence] | str] = {}
     for arm in result.arms:
         try:
@@ -210,8 +209,6 @@ def _estimate(found: Estimate) -> dict[str, Any]:
 
 def describe(study: Study) -> str:
     """A study before it is run: what varies, what is compared."""
-    from umbilical.studies.members import Draws
-
     draws = Draws(study)
     middle = [draws.values(draws.member(number)) for number in range(1, min(len(draws), 2) + 1)]
     rows: list[tuple[str, ...]] = [("drawn", "how", *(f"#{k}" for k in range(1, len(middle) + 1)))]

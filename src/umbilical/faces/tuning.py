@@ -24,10 +24,7 @@ def _conclusion(found: Tuned) -> Conclusion:
 
 def _text(found: Tuned) -> str:
     """What broke, and the gains that are left, as people read it."""
-    from umbilical.studies.tune import name_of, tuning_of
-
-    tuning = tuning_of(found.study)
-    head = ("", *(gain.key for gain in tuning.gains), *(name_of(objective) for objective in tuning.objectives))
+    head = ("", *found.gains, *found.objectives)
     rows = [
         (str(k), *(f"{g:.5g}" for g in t.gains.values()), *(f"{v:.5g}" for v in t.verdict.values))
         for k, t in enumerate(found.front, start=1)
@@ -35,7 +32,7 @@ def _text(found: Tuned) -> str:
     text = "broken by: " + ", ".join(f"{name} {count}" for name, count in found.broken.items())
     if not rows:
         return text
-    what = "no other trial beats these" if len(tuning.objectives) > 1 else "the best"
+    what = "no other trial beats these" if len(found.objectives) > 1 else "the best"
     more = f"\n  ... and {len(rows) - _SHOWN} more in tuning.json" if len(rows) > _SHOWN else ""
     return f"{text}\n{what}:\n\n{text_table([head, *rows[:_SHOWN]], range(len(head)))}{more}"
 

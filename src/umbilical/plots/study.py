@@ -12,6 +12,7 @@ from umbilical.errors import expect
 from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
+from umbilical.studies.sensitivity import Influence, rank
 from umbilical.studies.statistics import against, at, beyond, interval_text, percentage, ratios
 from umbilical.studies.sweep import worst
 
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from umbilical.studies.results import StudyResult
-    from umbilical.studies.sensitivity import Influence
 
 _SHOWN = 10
 _WORST = 3
@@ -125,8 +125,6 @@ def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *,
 
 def _influences(result: StudyResult, metric: str, arms: tuple[str, ...]) -> dict[str, list[Influence]]:
     """By arm; those in which nobody can tell are left out, unless it is all of them."""
-    from umbilical.studies.sensitivity import rank
-
     found, reason = {}, ValueError(f"{metric}: there is no arm")
     for arm in arms:
         try:

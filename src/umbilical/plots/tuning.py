@@ -8,7 +8,7 @@ import numpy as np
 
 from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.quantities import METRICS
-from umbilical.studies.tune import name_of, tuning_of
+from umbilical.studies.tune import tuning_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,4 +51,4 @@ def plot_tuning(found: Tuned, *, ax: Axes | None = None) -> Axes:
 
 def label_of(objective: Objective) -> str:
     """An objective in words, with its unit."""
-    return f"{name_of(objective)} [{METRICS[objective.metric].unit}]"
+    return f"{objective} [{METRICS[objective.metric].unit}]"

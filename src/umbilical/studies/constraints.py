@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import isnan
 
+from umbilical.certificate import certify
 from umbilical.errors import ScenarioError
 from umbilical.scenario import Scenario
+from umbilical.stability.judgement import margins_at, usual_lengths
 
 Constraint = Callable[[Scenario], float]
 GAIN = 2.0
@@ -23,8 +25,6 @@ def certificate(scenario: Scenario) -> float:
     >>> certificate(ringdown.replace({"control.law.slope_gain": 5.0})) < 0.0
     True
     """
-    from umbilical.certificate import certify  # mpmath and a search behind it
-
     try:
         found = certify(scenario, fix=False)
     except ScenarioError:  # a law for which there is no certificate
@@ -43,8 +43,6 @@ def margins_kept(scenario: Scenario) -> float:
     >>> 0.0 < margins_kept(load("paper")) < 1.0  # stable, but not with twice the thrust
     True
     """
-    from umbilical.stability.judgement import margins_at, usual_lengths
-
     try:
         found = [margins_at(scenario, length) for length in usual_lengths(scenario)]
     except ScenarioError:  # no loop, or one that cannot be linearised

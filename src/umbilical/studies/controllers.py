@@ -8,16 +8,16 @@ from importlib import import_module
 from inspect import signature
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from umbilical.control.contract import Controller
 from umbilical.engine.simulate import rehearse
 from umbilical.errors import Problem, ScenarioError, UmbilicalError
 from umbilical.scenario import Scenario
 from umbilical.scenario.problems import nearest
-from umbilical.scenario.scenario import validate
-from umbilical.studies.members import arm_data
-from umbilical.studies.study import Arm, Study
+
+if TYPE_CHECKING:
+    from umbilical.studies.study import Arm, Study
 
 _LONGEST = 300
 """Characters of a reason that are kept; an exception may carry a whole array."""
@@ -86,7 +86,7 @@ def _not_trusted(study: Study, arm: Arm) -> tuple[str, str, str]:
 
 
 def _fails_in_its_arm(study: Study, arm: Arm) -> tuple[str, str, str] | None:
-    return _failure(str(arm.controller), validate(arm_data(study, arm.changes), study.name), "this arm's run")
+    return _failure(str(arm.controller), study.scenario_with(arm.changes), "this arm's run")
 
 
 def _failure(path: str, scenario: Scenario, where: str) -> tuple[str, str, str] | None:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import prod
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from umbilical.errors import MissingPartnerError
-from umbilical.studies.study import Method
 
-SALIB = ("saltelli", "morris")
-"""Designs for sensitivity indices, which SALib makes."""
+if TYPE_CHECKING:
+    from umbilical.studies.study import Method
+
 _LEVELS = 4
 
 
@@ -21,14 +21,11 @@ def design_size(method: Method, members: int, counts: Sequence[int | None]) -> i
 
     A grid has the product of its counts; Saltelli's and Morris's designs come in blocks, rounded up.
     """
-    dimensions = len(counts)
     if method == "grid":
         return prod(count or 1 for count in counts)
-    if method == "saltelli":
-        return _power_of_two(-(-members // (dimensions + 2))) * (dimensions + 2)
-    if method == "morris":
-        return -(-members // (dimensions + 1)) * (dimensions + 1)
-    return members
+    block = len(counts) + {"saltelli": 2, "morris": 1}[method] if method in ("saltelli", "morris") else 1
+    blocks = -(-members // block)
+    return block * (1 << (blocks - 1).bit_length() if method == "saltelli" else blocks)
 
 
 def points(method: Method, members: int, counts: Sequence[int | None], seed: int) -> np.ndarray:
@@ -51,14 +48,14 @@ def points(method: Method, members: int, counts: Sequence[int | None], seed: int
     found, dimensions = design_size(method, members, counts), len(counts)
     if not dimensions:
         return np.zeros((found, 0))
+    if method == "grid":
+        sizes = [count or 1 for count in counts]
+        return (np.indices(sizes).reshape(dimensions, -1).T + 0.5) / np.array(sizes)
+    if method in ("saltelli", "morris"):
+        return _by_salib(method, found, dimensions, seed)
     generator = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,)))
     if method == "random":
         return generator.random((found, dimensions))
-    if method == "grid":
-        places = np.indices([count or 1 for count in counts]).reshape(dimensions, -1).T
-        return (places + 0.5) / np.array([count or 1 for count in counts])
-    if method in SALIB:
-        return _by_salib(method, found, dimensions, seed)
     return _by_scipy(method, found, dimensions, generator)
 
 
@@ -77,7 +74,7 @@ def _by_scipy(method: Method, members: int, dimensions: int, generator: np.rando
     if method == "latin":
         return qmc.LatinHypercube(dimensions, rng=generator).random(members)
     # Drawn as the power of two it is balanced for, and cut.
-    return qmc.Sobol(dimensions, rng=generator).random_base2(int(np.ceil(np.log2(max(members, 2)))))[:members]
+    return qmc.Sobol(dimensions, rng=generator).random_base2(max(members - 1, 1).bit_length())[:members]
 
 
 def _by_salib(method: Method, members: int, dimensions: int, seed: int) -> np.ndarray:
@@ -112,7 +109,3 @@ def partner() -> Any:
             "sensitivity indices need SALib, which is not installed; get it with `pip install umbilical[sensitivity]`"
         ) from error
     return SALib
-
-
-def _power_of_two(number: int) -> int:
-    return 1 << max(number - 1, 0).bit_length()

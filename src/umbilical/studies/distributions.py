@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
 from math import exp, floor, log, log10
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
@@ -26,6 +25,18 @@ class Uniform(Record):
     high: Number = Field(description="largest value")
     step: float | None = Field(default=None, gt=0.0, le=1e12, description="values are low and whole steps above it")
 
+    def at(self, share: float) -> Drawn:
+        """Value below which the given share, 0 to 1, of all draws lies.
+
+        >>> Uniform(kind="uniform", low=2.0, high=4.0).at(0.5)
+        3.0
+        """
+        if self.step is None:
+            return between(self.low, self.high, share)
+        steps = floor((self.high - self.low) / self.step * (1.0 + _ROUNDING))  # 0.3 / 0.1 is a little below 3
+        value = self.low + _place(share, steps + 1) * self.step
+        return round(value, _DECIMALS - min(floor(log10(self.step)), 0))
+
 
 class LogUniform(Record):
     """Every factor between two bounds is as likely as any other: for what is known to an order of magnitude."""
@@ -33,6 +44,10 @@ class LogUniform(Record):
     kind: Literal["log-uniform"]
     low: float = Field(gt=0.0, le=1e12, description="smallest value")
     high: float = Field(gt=0.0, le=1e12, description="largest value")
+
+    def at(self, share: float) -> Drawn:
+        """Value below which the given share, 0 to 1, of all draws lies."""
+        return between(self.low, self.high, share, logarithmic=True)
 
 
 class Normal(Record):
@@ -43,12 +58,27 @@ class Normal(Record):
     deviation: float = Field(gt=0.0, le=1e12, description="standard deviation")
     cut: float = Field(default=3.0, gt=0.0, le=8.0, description="deviations beyond which nothing is drawn")
 
+    def at(self, share: float) -> Drawn:
+        """Value below which the given share, 0 to 1, of all draws lies."""
+        from scipy.special import ndtr, ndtri
+
+        below = float(ndtr(-self.cut))
+        return self.mean + self.deviation * float(ndtri(below + share * (1.0 - 2.0 * below)))
+
 
 class Choice(Record):
     """One of a few values, each as likely as any other."""
 
     kind: Literal["choice"]
     values: tuple[Entry, ...] = Field(min_length=1, max_length=10_000, description="numbers, texts or truth values")
+
+    def at(self, share: float) -> Drawn:
+        """Value below which the given share, 0 to 1, of all draws lies, in the order they are given in.
+
+        >>> Choice(kind="choice", values=("a", "b")).at(0.5)
+        'b'
+        """
+        return self.values[_place(share, len(self.values))]
 
 
 class GridPoints(Record):
@@ -59,18 +89,28 @@ class GridPoints(Record):
     high: Number = Field(description="last value")
     count: int = Field(ge=2, le=10_000, description="how many values")
 
+    def at(self, share: float) -> Drawn:
+        """Value below which the given share, 0 to 1, of all draws lies."""
+        return between(self.low, self.high, _place(share, self.count) / (self.count - 1))
+
 
 Distribution = Annotated[Uniform | LogUniform | Normal | Choice | GridPoints, Field(discriminator="kind")]
 
 
-def draw_value(distribution: Distribution, share: float) -> Drawn:
-    """Value below which the given share, 0 to 1, of all draws lies.
+class DrawnVariable(NamedTuple):
+    """Something drawn: its column's name, its distribution, and unit and meaning if no scenario gives them."""
 
-    >>> width, side = Uniform(kind="uniform", low=2.0, high=4.0), Choice(kind="choice", values=("a", "b"))
-    >>> draw_value(width, 0.5), draw_value(side, 0.5)
-    (3.0, 'b')
-    """
-    return _quantile(distribution, share)
+    name: str
+    distribution: Distribution
+    unit: str = ""
+    meaning: str = ""
+
+
+def between(low: float, high: float, share: float, *, logarithmic: bool = False) -> float:
+    """The value at a share, 0 to 1, of the way from low to high."""
+    if logarithmic:
+        return exp(log(low) + share * (log(high) - log(low)))
+    return low + share * (high - low)
 
 
 def count(distribution: Distribution) -> int | None:
@@ -81,44 +121,6 @@ def count(distribution: Distribution) -> int | None:
 def is_number(distribution: Distribution) -> bool:
     """Whether what is drawn can be multiplied."""
     return not isinstance(distribution, Choice) or all(type(value) in (int, float) for value in distribution.values)
-
-
-@singledispatch
-def _quantile(distribution: Any, share: float) -> Drawn:
-    raise TypeError(f"not a distribution: {distribution!r}")
-
-
-@_quantile.register
-def _(distribution: Uniform, share: float) -> Drawn:
-    low, span, step = distribution.low, distribution.high - distribution.low, distribution.step
-    if step is None:
-        return low + share * span
-    steps = floor(span / step * (1.0 + _ROUNDING))  # 0.3 / 0.1 is a little below 3
-    return round(low + _place(share, steps + 1) * step, _DECIMALS - min(floor(log10(step)), 0))
-
-
-@_quantile.register
-def _(distribution: LogUniform, share: float) -> Drawn:
-    return exp(log(distribution.low) + share * (log(distribution.high) - log(distribution.low)))
-
-
-@_quantile.register
-def _(distribution: Normal, share: float) -> Drawn:
-    from scipy.special import ndtr, ndtri
-
-    below = float(ndtr(-distribution.cut))
-    return distribution.mean + distribution.deviation * float(ndtri(below + share * (1.0 - 2.0 * below)))
-
-
-@_quantile.register
-def _(distribution: Choice, share: float) -> Drawn:
-    return distribution.values[_place(share, len(distribution.values))]
-
-
-@_quantile.register
-def _(distribution: GridPoints, share: float) -> Drawn:
-    place = _place(share, distribution.count) / (distribution.count - 1)
-    return distribution.low + place * (distribution.high - distribution.low)
 
 
 def _place(share: float, places: int) -> int:

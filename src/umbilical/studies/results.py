@@ -24,9 +24,9 @@ from umbilical.scenario.document import read_document
 from umbilical.scenario.inventory import words_at
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.distributions import Drawn
-from umbilical.studies.members import Draws, units_of_a_fault
+from umbilical.studies.members import Draws
 from umbilical.studies.rows import NAMES, STATUSES, Row
-from umbilical.studies.study import Study
+from umbilical.studies.study import Study, admit_study
 
 if TYPE_CHECKING:
     import xarray
@@ -121,11 +121,10 @@ def assemble_study(study: Study, rows: Iterable[Row]) -> StudyResult:
     numbers = np.full((*shape, len(NAMES)), np.nan)
     status, end, reason = np.zeros(shape, dtype=np.int8), np.zeros(shape), np.full(shape, "", dtype=object)
     for row in rows:
-        place = row.number - 1
         for arm, cell in enumerate(row.cells):
-            numbers[place, arm] = cell.metrics
-            status[place, arm], end[place, arm] = STATUSES.index(cell.status), cell.end_time
-            reason[place, arm] = "" if cell.status == "COMPLETED" else cell.reason
+            place = row.number - 1, arm
+            numbers[place], status[place], end[place] = cell.metrics, STATUSES.index(cell.status), cell.end_time
+            reason[place] = "" if cell.status == "COMPLETED" else cell.reason
     dims = ("member", "arm")
     named: dict[str, Any] = {
         name: (dims, np.ascontiguousarray(numbers[..., k]), _words(METRICS[name].unit, METRICS[name].meaning))
@@ -143,19 +142,19 @@ def assemble_study(study: Study, rows: Iterable[Row]) -> StudyResult:
 
 
 def _coordinates(study: Study, draws: Draws) -> dict[str, Any]:
-    members = np.arange(1, len(draws) + 1)
+    """Members, arms, what is drawn, and the draws themselves with their units and meanings."""
     found: dict[str, Any] = {
-        "member": ("member", members, _words("1", "member")),
+        "member": ("member", np.arange(1, len(draws) + 1), _words("1", "member")),
         "arm": ("arm", np.array([arm.name for arm in study.arms]), {"long_name": "what is compared"}),
-        "variable": (
-            "variable",
-            np.array([v.name for v in draws.variables], dtype=str),
-            {"long_name": "what is drawn"},
-        ),
+        "variable": ("variable", np.array([v.name for v in draws.variables], str), {"long_name": "what is drawn"}),
     }
-    words = _drawn_words(study, draws)
-    for place, variable in enumerate(draws.variables):
-        found[variable.name] = ("member", _array(draws.column(place)), _words(*words[variable.name]))
+    first, relative = next(draws.undrawn()), {factor.key for factor in study.factors if factor.relative}
+    for place, (name, _, unit, meaning) in enumerate(draws.variables):
+        if not meaning:  # of a factor; kinds of tables decide on its words, and those are the first arm's
+            unit, meaning = words_at(first, name)
+            meaning = meaning or name
+        words = _words("1", f"factor on the {meaning}") if name in relative else _words(unit, meaning)
+        found[name] = ("member", _array(draws.column(place)), words)
     return found
 
 
@@ -164,21 +163,6 @@ def _array(values: list[Drawn]) -> np.ndarray:
     if any(isinstance(value, str) for value in values):
         return np.array([str(value) for value in values], dtype=object)
     return np.array(values)
-
-
-def _drawn_words(study: Study, draws: Draws) -> dict[str, tuple[str, str]]:
-    """Unit and meaning of every column; they are those of the first arm, since kinds of tables decide on them."""
-    first = next(draws.undrawn())
-    found = {}
-    for factor in study.factors:
-        unit, meaning = words_at(first, factor.key)
-        meaning = meaning or factor.key
-        found[factor.key] = ("1", f"factor on the {meaning}") if factor.relative else (unit, meaning)
-    return found | {
-        f"{campaign.name}.{part}": (unit, f"{part} of the {campaign.name}")
-        for campaign in study.campaigns
-        for part, unit in units_of_a_fault(campaign).items()
-    }
 
 
 def _words(unit: str, meaning: str) -> dict[str, str]:
@@ -216,8 +200,6 @@ def open_study(path: str | os.PathLike[str]) -> StudyResult:
     >>> umbilical.open_study("map/study.nc").data.equals(found.data)
     True
     """
-    from umbilical.studies.load import admit_study
-
     data, origin = _open(path), f"{path}: the study inside"
     try:
         study = admit_study(read_document(data.attrs["study"], origin), origin)
@@ -237,11 +219,13 @@ def is_study_file(path: str | os.PathLike[str]) -> bool:
     return kind_of(from_netcdf(files.read(path), str(path))) == KIND
 
 
-_RULES = {
-    **dict.fromkeys(("title", "convention", "study", "study_hash"), text_rule),
-    **dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text_rule),
-    "limits": json_of(dict, int, float),
-}
+_TEXTS = ("title", "convention", "study", "study_hash")
+_TEXTS += ("version_umbilical", "version_numpy", "version_numba", "version_python")
+_RULES = {**dict.fromkeys(_TEXTS, text_rule), "limits": json_of(dict, int, float)}
+_CELLS = ("member", "arm")
+_NEEDED = {"status": (_CELLS, "i"), "reason": (_CELLS, "U"), "end_time": (_CELLS, "f")}
+_NEEDED |= dict.fromkeys(METRICS, (_CELLS, "f")) | {"point": (("member", "variable"), "f"), "arm": (("arm",), "U")}
+"""Dimensions and kinds of a result's arrays."""
 
 
 def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
@@ -254,17 +238,13 @@ def _open(path: str | os.PathLike[str]) -> xarray.Dataset:
 
 def _wrong_arrays(data: xarray.Dataset, study: Study) -> Iterator[str]:
     """What keeps arrays from being those of the study."""
-    cells = ("member", "arm")
-    kinds = {"status": "i", "reason": "U", "end_time": "f"}
-    yield from (wrong_array(data[name], cells, kinds[name]) for name in kinds)
-    yield from (wrong_array(data[name], cells, "f") for name in METRICS if name in data)
-    yield wrong_array(data["point"], ("member", "variable"), "f")
-    yield from (wrong_array(data[v.name], ("member",), "fiuU") for v in Draws(study).variables)
-    yield wrong_array(data["arm"], ("arm",), "U")
-    if data["arm"].values.tolist() != [arm.name for arm in study.arms]:
-        yield f"arm: must be those of the study inside, {', '.join(arm.name for arm in study.arms)}"
-    if not np.array_equal(data["member"].values, np.arange(1, len(Draws(study)) + 1)):
-        yield f"member: must run from 1 to {len(Draws(study))}"
+    draws, arms = Draws(study), [arm.name for arm in study.arms]
+    needed = _NEEDED | {variable.name: (("member",), "fiuU") for variable in draws.variables}
+    yield from (wrong_array(data[name], *kind) for name, kind in needed.items() if name in data or name not in METRICS)
+    if data["arm"].values.tolist() != arms:
+        yield f"arm: must be those of the study inside, {', '.join(arms)}"
+    if not np.array_equal(data["member"].values, np.arange(1, len(draws) + 1)):
+        yield f"member: must run from 1 to {len(draws)}"
     if not np.isin(data["status"].values, range(len(STATUSES))).all():
         yield f"status: must be from 0 to {len(STATUSES) - 1}"
     if data["status"].attrs.get("flag_meanings") != " ".join(STATUSES):

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from umbilical import machine
 from umbilical.errors import Problem, ScenarioError
-from umbilical.studies.designs import design_size
-from umbilical.studies.distributions import count
-from umbilical.studies.members import variables
+from umbilical.studies.members import Draws
 from umbilical.studies.rows import NAMES
 from umbilical.studies.study import Study
 
@@ -17,15 +15,10 @@ _CELL, _DRAW, _MEMBER = 100, 100, 300
 """Bytes beside the metrics of a member in an arm (status, time, reason), of one of its draws, and of the member."""
 
 
-def members_of(study: Study) -> int:
-    """How many members a study has, a grid's product included."""
-    return design_size(study.design, study.members, [count(v.distribution) for v in variables(study)])
-
-
 def memory_needed(study: Study) -> int:
     """Bytes at the end of a study, when all its rows become one result; an upper estimate."""
     cells = len(study.arms) * (_COPIES * _NUMBER * len(NAMES) + _CELL)
-    return members_of(study) * (cells + _DRAW * len(variables(study)) + _MEMBER)
+    return len(Draws(study)) * (cells + _DRAW * len(study.variables) + _MEMBER)
 
 
 def check_study_memory(study: Study) -> None:
@@ -34,18 +27,10 @@ def check_study_memory(study: Study) -> None:
     Raises:
         ScenarioError: with the memory it needs, what there is, and how many members that is enough for.
     """
-    need, there = memory_needed(study), machine.memory()
+    need, there, members = memory_needed(study), machine.memory(), len(Draws(study))
     if need > there:
-        members = members_of(study)
-        raise ScenarioError(
-            [
-                Problem(
-                    "members",
-                    f"{members}, which take {need / 1e9:.3g} GB of memory",
-                    f"at most {int(members * there / need)}, for the {there / 1e9:.3g} GB of this machine",
-                    "all rows become one result at the end",
-                    "take fewer members or arms, or several studies with seeds of their own",
-                )
-            ],
-            study.name,
-        )
+        value = f"{members}, which take {need / 1e9:.3g} GB of memory"
+        bound = f"at most {int(members * there / need)}, for the {there / 1e9:.3g} GB of this machine"
+        fix = "take fewer members or arms, or several studies with seeds of their own"
+        why = Problem("members", value, bound, "all rows become one result at the end", fix)
+        raise ScenarioError([why], study.name)

@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from umbilical.engine.simulate import MeasuredRun, measure, simulate
 from umbilical.errors import ControllerError, FileError, ScenarioError
+from umbilical.formats import to_netcdf
 from umbilical.quantities import METRICS
 from umbilical.scenario import Scenario
 from umbilical.studies.controllers import describe_error, make_controller, shortened
@@ -88,8 +89,6 @@ def _run_cell(draws: Draws, member: Member, arm: int, stored: bool) -> tuple[Cel
 
 
 def _stored(scenario: Scenario, controller: Any) -> tuple[Cell, bytes]:
-    from umbilical.formats import to_netcdf
-
     run = simulate(scenario, controller)
     return _cell(MeasuredRun(run.status, run.reason, run.end_time, run.metrics)), to_netcdf(run.data)
 

@@ -3,10 +3,10 @@ a search is resumed by playing it again from its journal."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Sequence
 from math import inf
-from typing import Any, NamedTuple
+from operator import le
+from typing import NamedTuple
 
 from umbilical.errors import MissingPartnerError
 
@@ -42,47 +42,25 @@ def search(judge: Judge, dimensions: int, objectives: int, trials: int, seed: in
         raise MissingPartnerError("tuning needs optuna; get it with `pip install umbilical[tune]`") from error
 
     optuna.logging.set_verbosity(optuna.logging.WARNING)
-    directions: Any = ["minimize"] * objectives
-    study = optuna.create_study(directions=directions, sampler=_sampler(optuna, seed % 2**32))
+    sampler = optuna.samplers.TPESampler(seed=seed % 2**32, multivariate=True)
+    study = optuna.create_study(directions=[optuna.study.StudyDirection.MINIMIZE] * objectives, sampler=sampler)
     for _ in range(trials):
         trial = study.ask()
         found = judge(tuple(trial.suggest_float(str(k), 0.0, 1.0) for k in range(dimensions)))
-        if _carries_conditions(optuna):
-            trial.set_constraint("broken", found.broken)
-        trial.set_user_attr("broken", found.broken)
+        trial.set_constraint("broken", found.broken)
         study.tell(trial, [min(value, _WORSE) for value in found.values])
 
 
-def _carries_conditions(optuna: Any) -> bool:
-    """Whether trials carry their conditions themselves, as from version 5 on."""
-    return hasattr(optuna.trial.Trial, "set_constraint")
-
-
-def _sampler(optuna: Any, seed: int) -> Any:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", optuna.exceptions.ExperimentalWarning)
-        if _carries_conditions(optuna):
-            return optuna.samplers.TPESampler(seed=seed, multivariate=True)
-        return optuna.samplers.TPESampler(
-            seed=seed, multivariate=True, constraints_func=lambda trial: (trial.user_attrs["broken"],)
-        )
-
-
 def front(verdicts: Sequence[TrialVerdict]) -> list[int]:
-    """Places of those that keep every condition and that no other beats in every objective, by the first objective.
+    """Places of those that keep every condition and that no other beats in every objective, by the first objective; of
+    equals the first.
 
     >>> values = [((1.0, 3.0), ()), ((2.0, 2.0), ()), ((3.0, 3.0), ()), ((0.0, 0.0), (1.0,))]
     >>> front([TrialVerdict(*both) for both in values])
     [0, 1]
     """
-    sound = [k for k, v in enumerate(verdicts) if v.broken == 0.0 and all(value < inf for value in v.values)]
-    best: list[int] = []
-    for k in sorted(sound, key=lambda k: (verdicts[k].values, k)):
-        if not any(_beats(verdicts[other], verdicts[k]) for other in best):
-            best.append(k)
-    return best
-
-
-def _beats(one: TrialVerdict, other: TrialVerdict) -> bool:
-    """Whether one is nowhere worse; of equals the first stays."""
-    return all(a <= b for a, b in zip(one.values, other.values, strict=True))
+    best: dict[int, tuple[float, ...]] = {}
+    for values, place in sorted((v.values, k) for k, v in enumerate(verdicts) if not v.broken and max(v.values) < inf):
+        if not any(all(map(le, better, values)) for better in best.values()):
+            best[place] = values
+    return list(best)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from umbilical import __version__, files
+from umbilical import compile as compiling
 from umbilical.errors import FileError, OutputError
 from umbilical.studies.journal import Journal, entries
 from umbilical.studies.rows import NAMES
@@ -72,9 +73,7 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
 
 def study_fingerprint(study: Study, task: str) -> dict[str, Any]:
     """What must be equal for two parts of a study to fit together bit for bit."""
-    from umbilical.compile import cache_folder
-
-    kernels = cache_folder().name  # a hash of every kernel source and of the versions that compile them
+    kernels = compiling.cache_folder().name  # a hash of every kernel source and of the versions that compile them
     return {
         "task": task,
         "study_hash": study.hash,

@@ -3,17 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import exp, log
 from typing import Any, Literal
 
-from pydantic import Field
+import tomlkit
+from pydantic import Field, ValidationError
 
+from umbilical.errors import Problem, ScenarioError
 from umbilical.scenario.base import Number, Record, fingerprint
-from umbilical.scenario.scenario import Scenario
-from umbilical.studies.distributions import Distribution
+from umbilical.scenario.document import Data, freeze, look_up, override, try_override
+from umbilical.scenario.problems import problems_of
+from umbilical.scenario.scenario import Scenario, validate
+from umbilical.studies.checks import problems_across
+from umbilical.studies.distributions import Choice, Distribution, Drawn, DrawnVariable, between
 
 FaultKind = Literal["none", "partial", "dead", "stuck", "ramp", "intermittent"]
 Method = Literal["random", "latin", "sobol", "grid", "saltelli", "morris"]
+_NEEDED: dict[str, tuple[str, ...]] = {
+    "none": (),
+    "partial": ("effectiveness",),
+    "dead": (),
+    "stuck": ("value",),
+    "ramp": ("effectiveness", "over"),
+    "intermittent": ("effectiveness", "cycle", "duty"),
+}
+"""What each kind of fault is made of, beside its start."""
 
 
 class Factor(Record):
@@ -22,6 +35,20 @@ class Factor(Record):
     key: str = Field(min_length=1, description="dotted key of the scenario, lists numbered from 1")
     relative: bool = Field(default=False, description="what is drawn multiplies the scenario's value")
     distribution: Distribution
+
+    def given(self, base: Mapping[str, Any], value: Any) -> Any:
+        """What a scenario gets for a drawn value: a relative one multiplies, and a whole number stays one.
+
+        Args:
+            base: plain data of the scenario.
+            value: what was drawn.
+        """
+        try:
+            stated = look_up(base, self.key)
+        except KeyError:
+            return value
+        drawn = value * stated if self.relative else value
+        return int(drawn) if type(stated) is int and isinstance(drawn, float) and drawn.is_integer() else drawn
 
 
 class Campaign(Record):
@@ -37,6 +64,33 @@ class Campaign(Record):
     over: Distribution | None = Field(default=None, description="time a ramp takes, s")
     cycle: Distribution | None = Field(default=None, description="cycle of an intermittent fault, s")
     duty: Distribution | None = Field(default=None, description="share of the cycle it is present")
+
+    @property
+    def variables(self) -> tuple[DrawnVariable, ...]:
+        """What is drawn of a fault."""
+        units = {"start": "s", "effectiveness": "1", "value": "V" if self.target == "voltage" else "rad2/s2"}
+        units |= {"over": "s", "cycle": "s", "duty": "1"}
+        parts = [("kind", Choice(kind="choice", values=self.kinds), "")]
+        parts += [("motor", Choice(kind="choice", values=self.motors), "")]
+        parts += [(part, getattr(self, part), unit) for part, unit in units.items()]
+        return tuple(
+            DrawnVariable(f"{self.name}.{part}", drawn, unit, f"{part} of the {self.name}")
+            for part, drawn, unit in parts
+            if drawn is not None
+        )
+
+    @property
+    def lacking(self) -> list[tuple[str, str]]:
+        """Kinds of fault and parts of them, of those that are needed and not given."""
+        return [(kind, part) for kind in self.kinds for part in _NEEDED[kind] if getattr(self, part) is None]
+
+    def fault(self, values: Mapping[str, Drawn]) -> dict[str, Any] | None:
+        """The fault a member has, as plain data, if it has one."""
+        kind = str(values[f"{self.name}.kind"])
+        if kind == "none":
+            return None
+        parts = ("kind", "motor", "start", *_NEEDED[kind])
+        return {"target": self.target, **{part: values[f"{self.name}.{part}"] for part in parts}}
 
 
 class Arm(Record):
@@ -67,9 +121,7 @@ class Gain(Record):
 
     def at(self, share: float) -> float:
         """The value at a share, 0 to 1, of the way from low to high."""
-        if self.scale == "log":
-            return exp(log(self.low) + share * (log(self.high) - log(self.low)))
-        return self.low + share * (self.high - self.low)
+        return between(self.low, self.high, share, logarithmic=self.scale == "log")
 
 
 class Objective(Record):
@@ -78,6 +130,11 @@ class Objective(Record):
     metric: str = Field(description="name of a metric")
     statistic: Literal["mean", "quantile", "worst"] = Field(default="quantile", description="over the members")
     share: float = Field(default=0.95, gt=0.0, lt=1.0, description="which quantile")
+
+    def __str__(self) -> str:
+        return (
+            f"{f'{100 * self.share:g} % quantile' if self.statistic == 'quantile' else self.statistic} of {self.metric}"
+        )
 
 
 class Tuning(Record):
@@ -119,14 +176,35 @@ class Study(Record):
         """SHA-256 of the canonical text; equal exactly when studies are."""
         return fingerprint(self.to_dict())
 
+    @property
+    def variables(self) -> tuple[DrawnVariable, ...]:
+        """Everything that is drawn, in the order of the design's columns."""
+        factors = (DrawnVariable(factor.key, factor.distribution) for factor in self.factors)
+        return (*factors, *(variable for campaign in self.campaigns for variable in campaign.variables))
+
+    @property
+    def gains(self) -> tuple[Gain, ...]:
+        """What tuning may choose."""
+        return self.tuning.gains if self.tuning else ()
+
+    def scenario_data(self, changes: Mapping[str, Any]) -> Data:
+        """Plain data of the scenario with the study's changes and these."""
+        return override(override(self.scenario.to_dict(), self.changes, self.name), changes, self.name)
+
+    def scenario_with(self, changes: Mapping[str, Any]) -> Scenario:
+        """The scenario with the study's changes and these, checked field by field.
+
+        Raises:
+            ScenarioError: with every problem.
+        """
+        return validate(self.scenario_data(changes), self.name)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain data, the scenario included."""
         return self.model_dump(mode="json", exclude_none=True)
 
     def to_toml(self) -> str:
         """Complete TOML text, the scenario included; reading it back gives an equal study."""
-        import tomlkit
-
         return tomlkit.dumps(self.to_dict())
 
     def replace(self, changes: Mapping[str, Any]) -> Study:
@@ -135,6 +213,50 @@ class Study(Record):
         Raises:
             ScenarioError: with every problem.
         """
-        from umbilical.studies.load import override_study
-
         return override_study(self.to_dict(), changes, self.name)
+
+
+def override_study(data: Mapping[str, Any], overrides: Mapping[str, Any], origin: str) -> Study:
+    """Study of plain data with some values changed, by dotted keys.
+
+    What is said of the scenario here is the last word on it: the study's own ``changes`` of the same keys go.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    said = tuple(f"{key.removeprefix('scenario.')}." for key in overrides if key.startswith("scenario."))
+    if said and isinstance(own := data.get("changes"), Mapping):
+        data = {**data, "changes": {key: value for key, value in own.items() if not f"{key}.".startswith(said)}}
+    changed, lost = try_override(data, overrides)
+    return admit_study(changed, origin, lost)
+
+
+def admit_study(data: Mapping[str, Any], origin: str, problems: list[Problem] | None = None) -> Study:
+    """Study of plain data, after all checks.
+
+    Raises:
+        ScenarioError: with every problem.
+    """
+    found = list(problems or [])
+    try:
+        study = Study.model_validate(freeze(data))
+    except ValidationError as error:
+        raise ScenarioError([*found, *problems_of(error, Study), *_beside(data, error)], origin) from error
+    if found := [*found, *problems_across(study)]:
+        raise ScenarioError(found, origin)
+    return study
+
+
+def _beside(data: Mapping[str, Any], error: ValidationError) -> list[Problem]:
+    """What is wrong across the fields that are sound one by one, so that all problems come at once."""
+    places = [place for complaint in error.errors(include_url=False) if (place := complaint["loc"])]
+    kept = {key: value for key, value in data.items() if key not in {str(place[0]) for place in places}}
+    if "arms" not in kept:
+        kept.pop("tuning", None)  # which speaks of them
+    for key, stub in (("factors", []), ("arms", [{"name": "wrong"}])):  # an arm keeps its number, a factor has its key
+        if wrong := {place[1] for place in places if len(place) > 1 and place[0] == key}:
+            kept[key] = [part for k, own in enumerate(data[key]) for part in (stub if k in wrong else [own])]
+    try:
+        return problems_across(Study.model_validate(freeze(kept)))
+    except ValidationError:  # without its scenario or its name nothing more can be said
+        return []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass
@@ -13,23 +13,24 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+import tomlkit
 
 from umbilical.analysis.paired import quantile
 from umbilical.errors import FileError, Problem, ScenarioError, expect
 from umbilical.library import admit, load, preset_names
 from umbilical.result import ResultFaces
-from umbilical.scenario.document import extend, look_up, override
+from umbilical.scenario.document import extend
 from umbilical.scenario.problems import nearest
 from umbilical.scenario.scenario import validate
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
 from umbilical.studies.controllers import check_controllers
 from umbilical.studies.grids import on_one_grid
 from umbilical.studies.journal import BEGIN_ANEW
-from umbilical.studies.members import Draws, arm_data
+from umbilical.studies.members import Draws
 from umbilical.studies.results import StudyResult
 from umbilical.studies.room import check_study_memory
 from umbilical.studies.search import Point, TrialVerdict, front, search
-from umbilical.studies.store import Store, open_store
+from umbilical.studies.store import open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
 from umbilical.studies.sweep import in_memory, open_engine
 
@@ -65,6 +66,16 @@ class Tuned(ResultFaces):
     trials: tuple[TriedGains, ...]
 
     @property
+    def gains(self) -> tuple[str, ...]:
+        """Keys of what was chosen."""
+        return tuple(gain.key for gain in self.study.gains)
+
+    @property
+    def objectives(self) -> tuple[str, ...]:
+        """What was made small, in words."""
+        return tuple(map(str, tuning_of(self.study).objectives))
+
+    @property
     def front(self) -> tuple[TriedGains, ...]:
         """Trials that keep every condition and that no other beats in every objective."""
         return tuple(self.trials[k] for k in front([trial.verdict for trial in self.trials]))
@@ -87,7 +98,7 @@ class Tuned(ResultFaces):
             "study": self.study.name,
             "study_hash": self.study.hash,
             "optimiser": "optuna",
-            "objectives": [name_of(o) for o in tuning_of(self.study).objectives],
+            "objectives": list(self.objectives),
             "conditions": list(self.conditions),
             "broken": self.broken,
             "front": [_plain(trial) for trial in best],
@@ -144,43 +155,27 @@ def tune(
     task = "tune optuna"
     opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
     with opened as store, open_engine(study, engine) as pool:
-        trials = _Trials(study, kept, pool, store, progress)
-        search(trials.judge, len(tuning.gains), len(tuning.objectives), tuning.trials, study.seed)
-        found = Tuned(study, ("admitted", *kept, "completes"), tuple(trials.all))
-        if store is not None:
-            _keep(store, found)
+        lengths = (len(tuning.gains), len(tuning.objectives), len(kept) + 2)
+        done = dict(_from_entry(entry, lengths) for entry in store.entries()) if store else {}
+        trials: list[TriedGains] = []
+
+        def judge(point: Point) -> TrialVerdict:
+            gains = {gain.key: gain.at(share) for gain, share in zip(tuning.gains, point, strict=True)}
+            if point not in done:
+                done[point] = judge_gains(study, gains, kept, pool)
+                if store:
+                    store.journal.append([point, *done[point]])
+            trials.append(TriedGains(gains, done[point]))
+            progress(len(trials) / tuning.trials)
+            return done[point]
+
+        search(judge, len(tuning.gains), len(tuning.objectives), tuning.trials, study.seed)
+        found = Tuned(study, ("admitted", *kept, "completes"), tuple(trials))
+        if store:
+            store.save((json.dumps(found.document(), indent=1) + "\n").encode(), "tuning.json")
+            for name, trial in zip(found.files, found.front, strict=True):
+                store.save(found.patch(trial).encode(), name)
     return found
-
-
-class _Trials:
-    """Judges points and remembers: what the journal knows is not run again."""
-
-    def __init__(
-        self,
-        study: Study,
-        conditions: Mapping[str, Constraint],
-        engine: Executor,
-        store: Store | None,
-        progress: Progress,
-    ) -> None:
-        self.all: list[TriedGains] = []
-        self._study, self._conditions, self._engine = study, conditions, engine
-        self._store, self._progress = store, progress
-        old = store.entries() if store else ()
-        lengths = (len(tuning_of(study).gains), len(tuning_of(study).objectives), len(conditions) + 2)
-        self._known: dict[Point, TrialVerdict] = dict(_from_entry(entry, lengths) for entry in old)
-
-    def judge(self, point: Point) -> TrialVerdict:
-        """What comes of a point of the unit cube."""
-        gains = {g.key: g.at(share) for g, share in zip(tuning_of(self._study).gains, point, strict=True)}
-        if (verdict := self._known.get(point)) is None:
-            verdict = judge_gains(self._study, gains, self._conditions, self._engine)
-            self._known[point] = verdict
-            if self._store:
-                self._store.journal.append([point, *verdict])
-        self.all.append(TriedGains(gains, verdict))
-        self._progress(len(self.all) / tuning_of(self._study).trials)
-        return verdict
 
 
 def _from_entry(entry: Any, lengths: tuple[int, int, int]) -> tuple[Point, TrialVerdict]:
@@ -202,11 +197,11 @@ def judge_gains(
     study: Study, gains: Mapping[str, float], conditions: Mapping[str, Constraint], engine: Executor
 ) -> TrialVerdict:
     """Conditions first, since they are cheap; the members are run only when the scenario keeps them all."""
-    tuning = tuning_of(study)
-    nothing = tuple(float("inf") for _ in tuning.objectives)
-    arm = Arm(name=tuning.arm, changes={**_arm(study).changes, **gains}, controller=_arm(study).controller)
+    tuning, tuned = tuning_of(study), _arm(study)
+    nothing = (float("inf"),) * len(tuning.objectives)
+    arm = tuned.model_copy(update={"changes": {**tuned.changes, **gains}})
     try:
-        scenario = validate(arm_data(study, arm.changes), study.name)
+        scenario = study.scenario_with(arm.changes)
         admit(scenario)
     except ScenarioError as error:
         return TrialVerdict(nothing, (float(len(error.problems)), *(0.0 for _ in conditions), 0.0))
@@ -243,51 +238,27 @@ def tuning_of(study: Study) -> Tuning:
     return study.tuning
 
 
-def name_of(objective: Objective) -> str:
-    """An objective in words."""
-    share = f"{100 * objective.share:g} % quantile"
-    return f"{share if objective.statistic == 'quantile' else objective.statistic} of {objective.metric}"
-
-
 def to_patch(study: Study, gains: Mapping[str, float]) -> str:
     """TOML of the scenario that was tuned: the study's own changes, the tuned arm's and the gains; of a preset only
     what differs."""
-    import tomlkit
-
-    base, changes = study.scenario, {**study.changes, **_arm(study).changes, **gains}
-    name = f"{base.name}-tuned"[:80]
-    tuned = validate(override(arm_data(study, {**_arm(study).changes, **gains}), {"name": name}, name), name)
+    base, name = study.scenario, f"{study.scenario.name}-tuned"[:80]
+    tuned = study.scenario_with({**_arm(study).changes, **gains}).replace({"name": name})
     if base.name not in preset_names() or load(base.name) != base:
         return tuned.to_toml()
-    data, patch = tuned.to_dict(), {"extends": base.name, "name": name}
-    for key in changes:
-        _copy(data, patch, _up_to_a_list(key))
-    expressed = validate(extend(base.to_dict(), {key: patch[key] for key in patch if key != "extends"}), name) == tuned
-    return tomlkit.dumps(patch) if expressed else tuned.to_toml()  # a table may say what is there, not what is not
+    own = base.to_dict()
+    patch = {"name": name, **_difference(own, {**tuned.to_dict(), "assumed": own.get("assumed")})}
+    expressed = validate(extend(own, patch), name) == tuned  # a table may say what is there, not what is not
+    return tomlkit.dumps({"extends": base.name, **patch}) if expressed else tuned.to_toml()
 
 
-def _copy(data: Mapping[str, Any], patch: dict[str, Any], steps: Sequence[str]) -> None:
-    """The value at a place of the data into the same place of a patch, if there is one."""
-    *tables, last = steps
-    try:
-        value = look_up(data, ".".join(steps))
-    except KeyError:
-        return
-    for step in tables:
-        patch = patch.setdefault(step, {})
-    patch[last] = value
-
-
-def _up_to_a_list(key: str) -> list[str]:
-    """Steps of a key; a list is always given whole."""
-    steps = key.split(".")
-    return steps[: next((k for k, step in enumerate(steps) if step.isdecimal()), len(steps))]
-
-
-def _keep(store: Store, found: Tuned) -> None:
-    store.save((json.dumps(found.document(), indent=1) + "\n").encode(), "tuning.json")
-    for name, trial in zip(found.files, found.front, strict=True):
-        store.save(found.patch(trial).encode(), name)
+def _difference(old: Mapping[str, Any], new: Mapping[str, Any]) -> dict[str, Any]:
+    """What of a document differs from another, tables as short as they may be when they are laid over it."""
+    changed = {key: value for key, value in new.items() if value != old.get(key)}
+    for key, value in changed.items():
+        if isinstance(value, Mapping) and isinstance(old.get(key), Mapping):
+            part = _difference(old[key], value)
+            changed[key] = part if extend({key: old[key]}, {key: part}) == {key: value} else value
+    return changed
 
 
 def _plain(trial: TriedGains) -> dict[str, Any]:
