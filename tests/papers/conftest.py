@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from umbilical.papers.rao2022.claims import judge
+from umbilical.papers.rao2022.claims import judge_claims
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs
 from umbilical.papers.rao2022.ledger import Evidence, Finding
 from umbilical.papers.rao2022.maps import compute_maps
@@ -26,4 +26,4 @@ def evidence(runs: Runs) -> Evidence:
 @pytest.fixture(scope="session")
 def findings(evidence: Evidence) -> tuple[Finding, ...]:
     """The ledger without maps."""
-    return judge(evidence)
+    return judge_claims(evidence)

@@ -9,9 +9,9 @@ import pytest
 
 from tests.support.maps import made_up_maps
 from umbilical.papers.rao2022 import claims_adaptation, claims_faults, claims_vibration
-from umbilical.papers.rao2022.claims import judge
+from umbilical.papers.rao2022.claims import judge_claims
 from umbilical.papers.rao2022.experiments import FAULTS, Runs, cell
-from umbilical.papers.rao2022.ledger import Evidence, Finding, Verdict
+from umbilical.papers.rao2022.ledger import Evidence, Finding, Verdict, make_finding
 from umbilical.papers.rao2022.maps import MAPS
 from umbilical.run import Run
 
@@ -67,7 +67,7 @@ def test_observers_that_see_nothing_fail(evidence: Evidence, runs: Runs) -> None
     dead = given(evidence, none__without=without_estimates(runs[PROPOSED]))
     assert claims_vibration.c5(dead).verdict is Verdict.FAILS
     assert claims_faults.c9(dead).verdict is Verdict.FAILS
-    assert [n.value for n in claims_faults.c9(dead).numbers[:3]] == pytest.approx([1.0, 1.0, 1.0])
+    assert [n.value for n in make_finding("C9", claims_faults.c9(dead)).numbers[:3]] == pytest.approx([1.0, 1.0, 1.0])
 
 
 def test_arms_that_are_exchanged_turn_the_comparison(evidence: Evidence, runs: Runs) -> None:
@@ -111,7 +111,7 @@ def test_a_jump_is_asked_of_every_fault_and_at_once(evidence: Evidence, runs: Ru
 
 def test_the_motors_observers_follow_what_is_slow(evidence: Evidence) -> None:
     """C9 names the frequency at which a lag of 1/g_o makes the error that is allowed."""
-    found = claims_faults.c9(evidence)
+    found = make_finding("C9", claims_faults.c9(evidence))
     limit = next(number.value for number in found.numbers if number.name == "d2_limit")
     assert limit / np.hypot(limit, 100.0) == pytest.approx(0.1)
     assert found.when.endswith(f"{limit:.3g} rad/s")
@@ -122,7 +122,7 @@ def test_verdicts_do_not_depend_on_whether_maps_were_made(evidence: Evidence, fi
     maps = made_up_maps()
     for name in ("map-time", "map-factors"):
         maps[name]["peak"].loc[{"arm": "without"}] = 1.0
-    found = judge(evidence._replace(maps={name: maps[name] for name in MAPS}))
+    found = judge_claims(evidence._replace(maps={name: maps[name] for name in MAPS}))
     assert [f.verdict for f in found] == [f.verdict for f in findings]
     for with_maps, without in zip(found, findings, strict=True):
         assert {n.name for n in without.numbers} <= {n.name for n in with_maps.numbers}

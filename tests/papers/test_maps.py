@@ -152,7 +152,7 @@ def test_diverged_cells_are_counted() -> None:
 
 def test_where_one_arm_overtakes_the_other() -> None:
     """Peaks of 1.5/gain against 1/gain: 1 at a gain of 1.5; and 1.5/0.5 = 3 for factors believed 3 times too large."""
-    found = {number.name: number.value for number in reversal(made_up(1.5)).numbers}
+    found = reversal(made_up(1.5))
     assert found["start_gain"] == pytest.approx(1.5, rel=1e-3)
     assert found["belief_ratio"] == pytest.approx(3.0, rel=1e-3)
     assert found["same_start"] == pytest.approx(1.5, rel=1e-3)

@@ -1,25 +1,15 @@
-"""C6 to C9: faults, what the motors go through, and the disturbance observers."""
+"""C6 to C9, C11: faults, what the motors go through, and the disturbance observers."""
 
 from __future__ import annotations
+
+from itertools import product
 
 import numpy as np
 
 from umbilical import Run
+from umbilical.papers.rao2022.claims_vibration import AT
 from umbilical.papers.rao2022.experiments import ARMS, CASES, FAULTS, OBSERVERS, Runs, cell
-from umbilical.papers.rao2022.ledger import (
-    FOLLOWS,
-    UNMAPPED,
-    Evidence,
-    Finding,
-    Kind,
-    Number,
-    completed,
-    count_kind,
-    decide,
-    percent,
-    relative_error,
-    short,
-)
+from umbilical.papers.rao2022.ledger import FOLLOWS, Evidence, Judged, all_completed, relative_error
 from umbilical.papers.rao2022.regions import diverged, reversal, runaways, without_repeats
 
 WORKS = 0.01
@@ -37,67 +27,42 @@ LATER = 15.0
 the slowest load."""
 
 
-def c6(evidence: Evidence) -> Finding:
+def c6(evidence: Evidence) -> Judged:
     """No fault: known factors are better, and both work."""
-    runs, free = evidence.runs, evidence.runs["free"].metrics["tip_peak"]
-    without, with_control = (runs[cell("none", arm)].metrics for arm in ARMS)
-    ratio, ratio_rms = (without[m] / with_control[m] for m in ("tip_peak", "tip_rms"))
-    both = max(without["tip_peak"], with_control["tip_peak"]) / free
-    numbers = [
-        Number("peak_ratio", ratio, "1", "peak without over peak with fault control"),
-        Number("rms_ratio", ratio_rms, "1", "the same of root mean squares"),
-        Number("worst_left", both, "1", "larger peak of the two over that without control"),
-    ]
-    found = reversal(evidence.gain)
-    numbers += found.numbers
-    holds = max(ratio, ratio_rms) < 1.0 and both < WORKS
-    return Finding(
-        "C6",
-        "With healthy motors the loop without fault control (factors known) is better than the one with it; both work.",
-        f"Peak and root mean square at l; ratio below 1, and both below {percent(WORKS)} of the peak without control.",
-        tuple(numbers),
-        decide(holds and not found.when, holds),
-        f"Known factors leave {percent(ratio)} of the peak that fault control leaves ({short(without['tip_peak'])} and "
-        f"{short(with_control['tip_peak'])} m); without control it is {short(free)} m.",
-        found.words,
-        found.when,
-    )
+    free = evidence.runs["free"].metrics["tip_peak"]
+    without, with_control = (evidence.runs[cell("none", arm)].metrics for arm in ARMS)
+    peaks = without["tip_peak"], with_control["tip_peak"]
+    values = {
+        "peak_ratio": peaks[0] / peaks[1],
+        "rms_ratio": without["tip_rms"] / with_control["tip_rms"],
+        "worst_left": max(peaks) / free,
+        "works": WORKS,
+        "free": free,
+        "without": peaks[0],
+        "with_control": peaks[1],
+        **reversal(evidence.gain),
+    }
+    holds = max(values["peak_ratio"], values["rms_ratio"]) < 1.0 and values["worst_left"] < WORKS
+    return Judged(values, holds and not values["when"], holds)
 
 
-def c7a(evidence: Evidence) -> Finding:
+def c7a(evidence: Evidence) -> Judged:
     """A fault may make the loop without fault control diverge."""
-    runs = evidence.runs
-    peaks = {case: runs[cell(case, "without")].metrics["tip_peak_after_fault"] for case in FAULTS}
-    blind = runs["blind, dead, without"].metrics
-    seen = max(_absorbed(runs[cell(case, "without")]) for case in FAULTS)
-    numbers = [Number(f"{case}_peak", p, "m", f"peak after the fault, {case}") for case, p in peaks.items()]
-    numbers += [
-        Number("D_error", seen, "1", "largest relative error of D after the fault", Kind.ERROR),
-        Number("blind_dead_end", abs(blind["tip_end"]), "m", "ROV at the end, dead, no disturbance observer"),
-    ]
-    lost = [case for case in FAULTS if not completed([runs[cell(case, "without")]])]
-    found = runaways(evidence.edges, "without")
-    numbers += found.numbers
-    region = UNMAPPED
-    if evidence.maps:
-        counted = {name: diverged(evidence.maps[name], "without") for name in ("map-time", "map-factors")}
-        lost += [name for name, (count, _) in counted.items() if count]
-        count, cells = (sum(column) for column in zip(*counted.values(), strict=True))
-        numbers.append(Number("diverged", count, "1", "runs of the maps that diverged after a fault", Kind.COUNT))
-        numbers.append(Number("cells", cells, "1", "runs of the maps with a fault", Kind.EXACT))
-        region = f"{count} of {cells} runs over effectiveness, instant, stuck value and belief diverge."
-    return Finding(
-        "C7a",
-        "After a fault the loop without fault control may diverge.",
-        "Whether any run with a fault of one motor diverges: three cases, and every cell of two maps.",
-        tuple(numbers),
-        decide(bool(lost)),
-        f"{'Lost: ' + ', '.join(lost) if lost else 'None does'}; the peaks after the fault are {_list(peaks)} m. The "
-        "disturbance observer is driven by the commanded thrust, so what the motor fails to deliver looks like a load "
-        f"and is followed (error {percent(seen)}). Without the observer the ROV drifts: "
-        f"{short(abs(blind['tip_end']))} m at the end, dead.",
-        f"{region} {found.words}",
-    )
+    runs = {case: evidence.runs[cell(case, "without")] for case in FAULTS}
+    lost = [case for case, run in runs.items() if not all_completed([run])]
+    maps = {name: data for name, data in evidence.maps.items() if name in ("map-time", "map-factors")}
+    counts = {name: diverged(data, "without") for name, data in maps.items()}
+    lost += [name for name, (count, _) in counts.items() if count]
+    values = {
+        "peak": {case: run.metrics["tip_peak_after_fault"] for case, run in runs.items()},
+        "D_error": max(map(_absorbed, runs.values())),
+        "blind_dead_end": abs(evidence.runs["blind, dead, without"].metrics["tip_end"]),
+        "lost": f"Lost: {', '.join(lost)}" if lost else "None does",
+        "mapped": bool(maps),
+        **runaways(evidence.edges, "without"),
+        **dict(zip(("diverged", "cells"), map(sum, zip(*counts.values(), strict=True)), strict=False)),
+    }
+    return Judged(values, bool(lost))
 
 
 def _absorbed(run: Run) -> float:
@@ -106,125 +71,67 @@ def _absorbed(run: Run) -> float:
     return relative_error(run["disturbance"].sel(time=after), run["disturbance_estimate"].sel(time=after))
 
 
-def _list(values: dict[str, float]) -> str:
-    return ", ".join(f"{short(value)} ({name})" for name, value in values.items())
-
-
-def c7b(evidence: Evidence) -> Finding:
+def c7b(evidence: Evidence) -> Judged:
     """With fault control the response jumps at the fault and stays bounded."""
     runs = evidence.runs
-    excess = {case: _excess(runs, case) for case in FAULTS}
-    soon, size = ({case: found[k] for case, found in excess.items()} for k in ("soon", "size"))
-    peaks = {case: _peak(runs, case, "with") for case in FAULTS}
-    ratios = {case: peaks[case] / _peak(runs, case, "without") for case in FAULTS}
-    jumps, stays = min(soon.values()) > JUMP, completed(runs[cell(case, "with")] for case in FAULTS)
-    lost, region = _lost_with_control(evidence) if evidence.maps else ([], UNMAPPED)
-    return Finding(
-        "C7b",
-        "With fault control the boundary response jumps at the fault and stays bounded.",
-        "Excess over the healthy run with the same control, as a share of the healthy peak: a jump from "
-        f"{percent(JUMP)} on within {PROMPT:g} s; bounded: the runs come to their end.",
-        (
-            *(Number(f"{c}_soon", v, "1", f"excess {PROMPT:g} s after the fault, {c}") for c, v in soon.items()),
-            *(Number(f"{c}_size", v, "1", f"largest excess, {c}") for c, v in size.items()),
-            *(Number(f"{c}_peak", v, "m", f"peak after the fault, with fault control, {c}") for c, v in peaks.items()),
-            *(Number(f"{c}_ratio", v, "1", f"of that without fault control, {c}") for c, v in ratios.items()),
-            *lost,
-        ),
-        decide(jumps and stays, jumps or stays),
-        f"The excess is {_shares(soon)} of the healthy peak {PROMPT:g} s after the fault, and {_shares(size)} at its "
-        f"largest. The peaks after the fault are {_list(peaks)} m: {_shares(ratios)} of those without fault control.",
-        region,
-        "no jump is asked for" if stays else "staying bounded is not asked for",
-    )
+    peaks = {arm: {c: runs[cell(c, arm)].metrics["tip_peak_after_fault"] for c in FAULTS} for arm in ARMS}
+    soon, size, _, _ = _excess(runs)
+    jumps, stays = min(soon.values()) > JUMP, all_completed(runs[cell(case, "with")] for case in FAULTS)
+    values = {
+        "soon": soon,
+        "size": size,
+        "peak": peaks["with"],
+        "ratio": {case: peaks["with"][case] / peaks["without"][case] for case in FAULTS},
+        "jump": JUMP,
+        "prompt": PROMPT,
+        "stays": stays,
+        "mapped": bool(evidence.maps),
+        **(lost_in_maps(evidence) if evidence.maps else {}),
+    }
+    return Judged(values, jumps and stays, jumps or stays)
 
 
-def _peak(runs: Runs, case: str, arm: str) -> float:
-    return runs[cell(case, arm)].metrics["tip_peak_after_fault"]
+def lost_in_maps(evidence: Evidence) -> dict[str, dict[str, int]]:
+    """How many distinct runs of each map diverged with fault control, by observer, and of how many."""
+    maps = {name: without_repeats(evidence.maps[f"map-{name}"]) for name in ("time", "factors", "rates")}
+    found = {n: {o: diverged(data.sel(observer=[o]), "with") for o in OBSERVERS} for n, data in maps.items()}
+    lost = {f"lost_{name}": {o: count for o, (count, _) in counts.items()} for name, counts in found.items()}
+    return lost | {"cells": {name: counts["on"][1] for name, counts in found.items()}}
 
 
-def _lost_with_control(evidence: Evidence) -> tuple[list[Number], str]:
-    """How many runs of each map diverged with fault control, and that in words."""
-    names = ("time", "factors", "rates")
-    maps = {name: without_repeats(evidence.maps[f"map-{name}"]) for name in names}
-    counts = {(n, o): diverged(maps[n].sel(observer=[o]), "with") for n in names for o in OBSERVERS}
-    numbers = [
-        Number(f"diverged_{n}_{o}", count, "1", f"diverged, of {size} of map-{n}, observer {o}", count_kind(size))
-        for (n, o), (count, size) in counts.items()
-    ]
-    each = (f"map-{n} {counts[n, 'on'][0]} and {counts[n, 'off'][0]} of {counts[n, 'on'][1]}" for n in names)
-    words = "Diverged with fault control, of the distinct runs of each map, with the disturbance observer and without: "
-    return numbers, f"{words}{'; '.join(each)}."
-
-
-def c7c(evidence: Evidence) -> Finding:
+def c7c(evidence: Evidence) -> Judged:
     """With fault control the response falls again and settles."""
-    excess = {case: _excess(evidence.runs, case) for case in FAULTS}
-    left, swing = ({case: found[k] for case, found in excess.items()} for k in ("left", "swing"))
-    back = [left[case] < FALLEN and swing[case] < SETTLED for case in FAULTS]
-    return Finding(
-        "C7c",
-        "After its jump the response with fault control falls and settles.",
-        f"The same excess over the last {LATER:g} s, as a share of its largest: fallen below {percent(FALLEN)}, "
-        f"settled where it swings by less than {percent(SETTLED)}.",
-        (
-            *(Number(f"{c}_left", v, "1", f"excess left at the end, of its largest, {c}") for c, v in left.items()),
-            *(Number(f"{c}_swing", v, "1", f"its swing at the end, {c}") for c, v in swing.items()),
-        ),
-        decide(all(back), any(back)),
-        f"Of the largest excess, {_shares(left)} is left at the end; it swings by {_shares(swing)} of it.",
-        "Looked at in the three fault cases. With beta = 0.01 m/s nothing pulls the ROV back to the middle.",
-        "it is asked of " + " and ".join(case for case, yes in zip(FAULTS, back, strict=True) if yes),
-    )
+    _, _, left, swing = _excess(evidence.runs)
+    back = [case for case in FAULTS if left[case] < FALLEN and swing[case] < SETTLED]
+    values = {"left": left, "swing": swing, "back": back, "later": LATER, "fallen": FALLEN, "settled": SETTLED}
+    return Judged(values, len(back) == len(FAULTS), bool(back))
 
 
-def _excess(runs: Runs, case: str) -> dict[str, float]:
-    """|y_fault - y_healthy| at the ROV over the healthy peak soon after the fault and at its largest.
+def _excess(runs: Runs) -> list[dict[str, float]]:
+    """\\|y_fault - y_healthy\\| at the ROV over the healthy peak, soon after the fault and at its largest, by case.
 
     Of its largest, what is left at the end, and the swing of the difference there.
     """
-    healthy, faulty = (runs[cell(c, "with")]["tip_displacement"] for c in ("none", case))
-    start = runs[cell(case, "with")].scenario.faults[0].start
-    difference = (faulty - healthy) / float(abs(healthy).max())
-    excess, end = abs(difference), float(difference["time"][-1])
-    largest, late = float(excess.max()), difference.sel(time=slice(end - LATER, end))
-    return {
-        "soon": float(excess.sel(time=slice(start, start + PROMPT)).max()),
-        "size": largest,
-        "left": float(abs(late).max()) / largest,
-        "swing": float(late.max() - late.min()) / largest,
-    }
+    healthy = runs[cell("none", "with")]["tip_displacement"]
+    found = []
+    for run in (runs[cell(case, "with")] for case in FAULTS):
+        start, difference = (
+            run.scenario.faults[0].start,
+            (run["tip_displacement"] - healthy) / float(abs(healthy).max()),
+        )
+        late = difference.sel(time=slice(float(difference["time"][-1]) - LATER, None))
+        soon, largest = abs(difference).sel(time=slice(start, start + PROMPT)).max(), abs(difference).max()
+        found.append([soon, largest, abs(late).max() / largest, (late.max() - late.min()) / largest])
+    return [dict(zip(FAULTS, map(float, column), strict=True)) for column in zip(*found, strict=True)]
 
 
-def _shares(values: dict[str, float]) -> str:
-    return ", ".join(f"{percent(value)} ({name})" for name, value in values.items())
-
-
-def c8(evidence: Evidence) -> Finding:
+def c8(evidence: Evidence) -> Judged:
     """Motor speeds and voltages stay bounded."""
-    runs = [evidence.runs[cell(case, arm)] for case in CASES for arm in ARMS]
-    speed = max(run.metrics["motor_speed_peak"] for run in runs)
-    volts = max(run.metrics["motor_voltage_peak"] for run in runs)
-    rms = max(run.metrics["motor_voltage_rms"] for run in runs)
-    growth = max(_growth(run) for run in runs)
-    return Finding(
-        "C8",
-        "Motor speeds and voltages stay bounded in all four cases.",
-        "Peaks and root mean squares; bounded: every run comes to its end, and the voltage of its last fifth does not "
-        "exceed what came before.",
-        (
-            Number("speed_peak", speed, "rad/s", "largest motor speed"),
-            Number("voltage_peak", volts, "V", "largest motor voltage"),
-            Number("voltage_rms", rms, "V", "largest root mean square of the voltages"),
-            Number("growth", growth, "1", "voltage peak of the last fifth over that before"),
-        ),
-        decide(completed(runs) and growth < 1.0),
-        f"No speed exceeds {short(speed)} rad/s and no voltage {short(volts)} V, in {len(runs)} runs (four fault "
-        "cases, "
-        "both arms).",
-        f"Looked at in the paper's cases; the voltage of the last fifth of a run peaks at "
-        f"{percent(growth)} of what came before, or less.",
-    )
+    runs = [evidence.runs[cell(case, arm)] for case, arm in product(CASES, ARMS)]
+    names = ("speed_peak", "voltage_peak", "voltage_rms")
+    values = {name: max(run.metrics[f"motor_{name}"] for run in runs) for name in names}
+    growth = max(map(_growth, runs))
+    return Judged(values | {"growth": growth, "runs": len(runs)}, all_completed(runs) and growth < 1.0)
 
 
 def _growth(run: Run) -> float:
@@ -234,75 +141,55 @@ def _growth(run: Run) -> float:
     return float(size.sel(time=slice(0.8 * end, None)).max() / size.sel(time=slice(0.0, 0.8 * end)).max())
 
 
-def c9(evidence: Evidence) -> Finding:
+def c9(evidence: Evidence) -> Judged:
     """The disturbance observers follow."""
     run = evidence.runs[cell("none", "without")]
     error = relative_error(run["disturbance"], run["disturbance_estimate"])
-    motors = [
-        relative_error(run["motor_disturbance"].sel(motor=k), run["motor_disturbance_estimate"].sel(motor=k))
-        for k in run["motor"].values
-    ]
+    both = run["motor_disturbance"], run["motor_disturbance_estimate"]
+    motors = {str(k): relative_error(*(one.sel(motor=k) for one in both)) for k in run["motor"].values}
     control = run.scenario.control
     assert control.motor_loop is not None
     assert control.disturbance_observer is not None
     gain, slow = control.motor_loop.observer_gain, control.disturbance_observer.gain
     fastest = max(term.frequency for m in run.scenario.motors for term in m.voltage_disturbance if term.kind == "sine")
-    limit, limit_D = (FOLLOWS * of / float(np.sqrt(1.0 - FOLLOWS**2)) for of in (gain, slow))
-    lag = fastest / float(np.hypot(fastest, gain))
-    return Finding(
-        "C9",
-        "The disturbance observers follow D and the motors' voltage disturbances.",
-        f"Root mean square of the error over that of the signal; below {FOLLOWS:g}.",
-        (
-            Number("D_error", error, "1", "relative error of D", Kind.ERROR),
-            *(
-                Number(f"d2_error_{k}", e, "1", f"the same of d2, motor {k}", Kind.SAMPLED)
-                for k, e in enumerate(motors, 1)
-            ),
-            Number("d2_lag", lag, "1", f"error of a lag 1/g_o at {fastest:g} rad/s", Kind.EXACT),
-            Number("d2_limit", limit, "rad/s", "frequency up to which the error of d2 stays below it", Kind.EXACT),
-            Number("D_limit", limit_D, "rad/s", "the same of D", Kind.EXACT),
-        ),
-        decide(max(error, *motors) < FOLLOWS, min(error, *motors) < FOLLOWS),
-        f"The errors are {percent(error)} for D, and {', '.join(map(percent, motors))} for the motors.",
-        f"Each observer is a first-order lag: what moves faster than its gain is missed. For motor 1, sin {fastest:g}t "
-        f"against g_o = {gain:g} 1/s, the lag alone makes {percent(lag)}. D is followed because most of it is steady: "
-        f"what moves faster than {short(limit_D)} rad/s is not given to a tenth (k_s = {slow:g} 1/s).",
-        f"a motor's disturbance is slower than {short(limit)} rad/s",
-    )
+    values = {
+        "D_error": error,
+        "motor": motors,
+        "motors": list(motors.values()),
+        "d2_lag": fastest / float(np.hypot(fastest, gain)),
+        "d2_limit": FOLLOWS * gain / float(np.sqrt(1.0 - FOLLOWS**2)),
+        "D_limit": FOLLOWS * slow / float(np.sqrt(1.0 - FOLLOWS**2)),
+        "follows": FOLLOWS,
+        "fastest": fastest,
+        "gain": gain,
+        "slow": slow,
+    }
+    each = [error, *motors.values()]
+    return Judged(values, max(each) < FOLLOWS, min(each) < FOLLOWS)
 
 
-def c11(evidence: Evidence) -> Finding:
+def c11(evidence: Evidence) -> Judged:
     """With fault control the vibration is suppressed with and without a fault, against no control."""
     runs, free = evidence.runs, evidence.runs["free"]
     worst = {case: _worst_left(runs[cell(case, "with")], free) for case in CASES}
-    long = runs["none, with, endless"].metrics["tip_peak"] / runs["free, long"].metrics["tip_peak"]
+    kept = [case for case, left in worst.items() if all_completed([runs[cell(case, "with")]]) and left < 1.0]
     blind = {case: runs[f"blind, {case}, with"] for case in ("none", "dead", "stuck")}
-    alone = {case: _worst_left(run, free) for case, run in blind.items() if completed([run])}
-    lost = [case for case in blind if case not in alone]
-    tried = len(blind) + 1
-    lost += ["none, 400 s"] if not completed([runs["blind, none, with, long"]]) else []
-    kept = {case: completed([runs[cell(case, "with")]]) and left < 1.0 for case, left in worst.items()}
-    return Finding(
-        "C11",
-        "With fault control the vibration is suppressed with a fault and without one.",
-        "Largest ratio to no control over l/4, l/2, 3l/4 and l, of peaks and of root mean squares; below 1, and the "
-        "run comes to its end.",
-        (
-            *(Number(f"{c}_worst", v, "1", f"worst ratio with fault control, {c}") for c, v in worst.items()),
-            Number("long_left", long, "1", "peak of the ROV in 4000 s over that without control in 400 s"),
-            *(Number(f"blind_{c}_worst", v, "1", f"the same without the observer, {c}") for c, v in alone.items()),
-            Number("blind_lost", len(lost), "1", f"of {tried} runs without the observer: diverge", Kind.COUNT),
-        ),
-        decide(all(kept.values()), any(kept.values())),
-        f"Of what there is without control, {_shares(worst)} is left at most.",
-        f"Over 4000 s {percent(long)} of the peak of 400 s without control. Without the disturbance observer "
-        f"{_shares(alone)}; {len(lost)} of {tried} runs diverge ({'; '.join(lost) or 'none'}).",
-        "it is asked of " + " and ".join(case for case, yes in kept.items() if yes),
-    )
+    alone = {case: _worst_left(run, free) for case, run in blind.items() if all_completed([run])}
+    blind["none, 400 s"] = runs["blind, none, with, long"]
+    lost = [case for case, run in blind.items() if not all_completed([run])]
+    values = {
+        "worst": worst,
+        "long_left": runs["none, with, endless"].metrics["tip_peak"] / runs["free, long"].metrics["tip_peak"],
+        "alone": alone,
+        "blind_lost": len(lost),
+        "tried": len(blind),
+        "lost": "; ".join(lost) or "none",
+        "kept": kept,
+    }
+    return Judged(values, len(kept) == len(CASES), bool(kept))
 
 
 def _worst_left(run: Run, free: Run) -> float:
     """Largest ratio of peaks and root mean squares to those of another run, over the four places."""
-    names = [f"{at}_{kind}" for at in ("quarter", "mid", "three_quarter", "tip") for kind in ("peak", "rms")]
+    names = [f"{at}_{kind}" for at in AT.values() for kind in ("peak", "rms")]
     return max(run.metrics[name] / free.metrics[name] for name in names)

@@ -14,36 +14,11 @@ from functools import lru_cache
 from importlib import resources
 from typing import Any, NamedTuple
 
-from umbilical.papers.rao2022.ledger import Finding, Kind, Number
-
-TOLERANCES: dict[Kind, tuple[str, float, str]] = {
-    Kind.PEAK: ("relative", 0.01, "half the step and period on 96 elements move it by less than half a per cent"),
-    Kind.ERROR: ("relative", 0.05, "a small difference of large numbers, of stored samples"),
-    Kind.SAMPLED: ("relative", 0.05, "at the preset's period of 1 ms; it is proportional to the period"),
-    Kind.FRONT: (
-        "relative",
-        0.1,
-        "a wave front is in it; half the step and period on 96 elements move it by 4 per cent",
-    ),
-    Kind.EXACT: ("relative", 1e-5, "it follows from settings, not from a run; written with six digits"),
-    Kind.COUNT: ("relative", 0.05, "cells on the edge of stability fall to either side; where none is lost, none may"),
-    Kind.FEW: ("absolute", 1.0, "one value on the edge may fall to the other side"),
-    Kind.SHARE: ("absolute", 0.03, "cells in which both arms are nearly equal fall to either side"),
-    Kind.INSTANT: (
-        "relative",
-        0.2,
-        "an instability grows from almost nothing; half the step and period move it by a tenth",
-    ),
-    Kind.EDGE: ("relative", 0.03, "an edge of stability; on three grids it is the same within this"),
-    Kind.CROSSING: ("relative", 0.03, "where two curves cross, along straight lines between points of a scan"),
-    Kind.SOLVED: ("relative", 0.01, "solved without a grid: an ordinary differential equation or a frequency response"),
-    Kind.SEARCH: ("relative", 0.03, "the end of a search, which another processor may end a little elsewhere"),
-}
-"""How far a number of each kind may move, and why so far."""
+from umbilical.papers.rao2022.ledger import WORDS, Finding, Number
 
 FILE = "expected.toml"
 _HEAD = """\
-# Every number that docs/paper.md publishes, with the tolerance it may move by and why, and every verdict.
+# Every number that docs/paper.md publishes, and every verdict. How far each kind may move, and why, says claims.toml.
 # Written by `.venv/bin/python tools/make_expected`; compared by `umbilical reproduce --check`.
 """
 
@@ -69,29 +44,23 @@ def published() -> Mapping[str, Any]:
 def parse(text: str) -> dict[str, Any]:
     """Claims of a text of :func:`expected_text`; each number has the tolerance of its kind, and why so much."""
     claims = tomllib.loads(text)
-    tolerances = claims.pop("tolerances")
     for entry in (entry for claim in claims.values() for entry in claim.values() if isinstance(entry, dict)):
-        entry |= tolerances[entry["kind"]]
+        entry |= WORDS["tolerances"][entry["kind"]]
     return claims
 
 
 def expected_text(findings: Iterable[Finding]) -> str:
     """The file for a complete ledger."""
-    kinds = (
-        f"{kind.value} = {{ {how} = {size:g}, why = {json.dumps(why)} }}"
-        for kind, (how, size, why) in TOLERANCES.items()
-    )
-    return "\n".join([_HEAD, "[tolerances]", *kinds, *(line for finding in findings for line in _claim(finding)), ""])
+    return "\n".join([_HEAD, *(line for finding in findings for line in _claim(finding))])
 
 
 def _claim(finding: Finding) -> Iterator[str]:
-    yield from ("", f"[{finding.id}]")
-    yield f"statement = {json.dumps(finding.statement)}"
-    yield f"verdict = {json.dumps(finding.verdict.value)}"
-    yield f"conclusion = {json.dumps(finding.conclusion)}"
-    for number in finding.numbers:
-        entry = f"value = {number.value:.6g}, unit = {json.dumps(number.unit)}, kind = {json.dumps(number.kind.value)}"
-        yield f"{number.name} = {{ {entry} }}  # {number.meaning}"
+    yield f"[{finding.id}]"
+    words = {"statement": finding.statement, "verdict": finding.verdict.value, "conclusion": finding.conclusion}
+    yield from (f"{key} = {json.dumps(text)}" for key, text in words.items())
+    for n in finding.numbers:
+        yield f'{n.name} = {{ value = {n.value:.6g}, unit = "{n.unit}", kind = "{n.kind}" }}  # {n.meaning}'
+    yield ""
 
 
 def deviations(

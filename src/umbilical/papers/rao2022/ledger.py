@@ -1,11 +1,14 @@
-"""What a claim comes to: a statement, numbers, a verdict, and where it holds."""
+"""What a claim comes to: a statement, numbers, a verdict, and where it holds; its words are those of claims.toml."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, NamedTuple
+from importlib import resources
+from string import Formatter
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,9 +17,14 @@ from umbilical.papers.rao2022.experiments import Runs
 from umbilical.papers.rao2022.proofs import Proofs
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     import xarray
+
+WORDS: dict[str, Any] = tomllib.loads(
+    (resources.files("umbilical.papers.rao2022") / "claims.toml").read_text(encoding="utf-8")
+)
+"""What is said of every claim, and the tolerances of numbers by their kind."""
+FOLLOWS = 0.1
+"""A relative error below which we say that an estimate follows."""
 
 
 class Verdict(Enum):
@@ -25,64 +33,6 @@ class Verdict(Enum):
     HOLDS = "holds"
     CONDITIONAL = "holds only when"
     FAILS = "does not reproduce"
-
-
-class Kind(Enum):
-    """What sort of number it is, which decides how far it may move; see :mod:`umbilical.papers.rao2022.expected`."""
-
-    PEAK = "peak"
-    ERROR = "error"
-    SAMPLED = "sampled"
-    FRONT = "front"
-    EXACT = "exact"
-    COUNT = "count"
-    FEW = "few"
-    SHARE = "share"
-    INSTANT = "instant"
-    EDGE = "edge"
-    CROSSING = "crossing"
-    SOLVED = "solved"
-    SEARCH = "search"
-
-
-class Number(NamedTuple):
-    """One computed number of a claim; ``name`` is unique within it."""
-
-    name: str
-    value: float
-    unit: str
-    meaning: str
-    kind: Kind = Kind.PEAK
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One line of the ledger.
-
-    Attributes:
-        id: the claim's, as in docs/paper.md.
-        statement: what is claimed, in our words.
-        measure: what was measured, and from which value on the statement is said to hold.
-        numbers: what came out.
-        verdict: the conclusion, drawn from the numbers.
-        because: the conclusion in words, with its numbers.
-        region: where it holds, as far as that was looked at.
-        when: what completes "holds only when"; empty for the other verdicts.
-    """
-
-    id: str
-    statement: str
-    measure: str
-    numbers: tuple[Number, ...]
-    verdict: Verdict
-    because: str
-    region: str
-    when: str = ""
-
-    @property
-    def conclusion(self) -> str:
-        """The verdict as a sentence's end."""
-        return f"{self.verdict.value} {self.when}" if self.verdict is Verdict.CONDITIONAL else self.verdict.value
 
 
 class Edge(NamedTuple):
@@ -110,25 +60,109 @@ class Evidence(NamedTuple):
     proofs: Proofs
 
 
-UNMAPPED = "The maps were left out (--no-maps)."
-FOLLOWS = 0.1
-"""A relative error below which we say that an estimate follows."""
+class Judged(NamedTuple):
+    """What a claim was judged by: values by the names that its words use, and whether it holds everywhere it was
+    looked at, or only somewhere."""
+
+    values: Mapping[str, Any]
+    holds: bool
+    somewhere: bool = False
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict.
+
+        >>> Judged({}, True).verdict.value, Judged({}, False, True).verdict.value, Judged({}, False).verdict.value
+        ('holds', 'holds only when', 'does not reproduce')
+        """
+        if self.holds:
+            return Verdict.HOLDS
+        return Verdict.CONDITIONAL if self.somewhere else Verdict.FAILS
 
 
-def count_kind(size: int) -> Kind:
-    """The kind of a count of so many: a few along one axis of a map, or the cells of a map."""
-    return Kind.FEW if size < 100 else Kind.COUNT
+class Number(NamedTuple):
+    """One computed number of a claim; ``name`` is unique within it, ``kind`` decides how far it may move."""
+
+    name: str
+    value: float
+    unit: str
+    meaning: str
+    kind: str
 
 
-def decide(holds: bool, somewhere: bool = False) -> Verdict:
-    """The verdict of a statement that holds everywhere it was looked at, only somewhere, or nowhere.
+@dataclass(frozen=True)
+class Finding:
+    """One line of the ledger.
 
-    >>> decide(True).value, decide(False, somewhere=True).value, decide(False).value
-    ('holds', 'holds only when', 'does not reproduce')
+    Attributes:
+        id: the claim's, as in docs/paper.md.
+        verdict: the conclusion, drawn from the numbers.
+        numbers: what came out.
+        statement: what is claimed, in our words.
+        measure: what was measured, and from which value on the statement is said to hold.
+        because: the conclusion in words, with its numbers.
+        region: where it holds, as far as that was looked at.
+        when: what completes "holds only when".
     """
-    if holds:
-        return Verdict.HOLDS
-    return Verdict.CONDITIONAL if somewhere else Verdict.FAILS
+
+    id: str
+    verdict: Verdict
+    numbers: tuple[Number, ...]
+    statement: str
+    measure: str
+    because: str
+    region: str
+    when: str = ""
+
+    @property
+    def conclusion(self) -> str:
+        """The verdict as a sentence's end."""
+        return f"{self.verdict.value} {self.when}" if self.verdict is Verdict.CONDITIONAL else self.verdict.value
+
+
+def make_finding(name: str, judged: Judged) -> Finding:
+    """What became of a claim, in its words."""
+    words, values = WORDS[name], dict(judged.values)
+    for key, ways in words.get("either", {}).items():
+        values[key] = say(ways[not values[key]], values)
+    told = {key: say(text, values) for key, text in words.items() if isinstance(text, str)}
+    return Finding(name, judged.verdict, tuple(_numbers(words["numbers"], values)), **told)
+
+
+def _numbers(words: Mapping[str, Mapping[str, str]], values: Mapping[str, Any]) -> Iterator[Number]:
+    """Those whose value there is; a map's are left out with it."""
+    for pattern, word in words.items():
+        found = values.get(word["of"], {}) if "of" in word else {"": values[pattern]} if pattern in values else {}
+        for key, value in found.items():
+            name, meaning = (say(text, values, key) for text in (pattern, word["meaning"]))
+            yield Number(name.replace(" ", "_"), float(value), word.get("unit", "1"), meaning, word.get("kind", "peak"))
+
+
+class _Words(Formatter):
+    """Numbers with three digits, in per cent by ``%``; several with commas, by ``&`` with "and"."""
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if isinstance(value, Mapping):
+            return self._all(
+                [f"{self.format_field(v, format_spec.rstrip('&'))} ({k})" for k, v in value.items()], format_spec
+            )
+        if isinstance(value, list):
+            return self._all([self.format_field(v, format_spec.rstrip("&")) for v in value], format_spec)
+        if isinstance(value, float) and format_spec in ("", "%"):
+            return percent(value) if format_spec else short(value)
+        return format(value, format_spec)
+
+    def _all(self, parts: list[str], format_spec: str) -> str:
+        return (" and " if format_spec.endswith("&") else ", ").join(parts)
+
+
+def say(text: str, values: Mapping[str, Any], key: str = "") -> str:
+    """A text with values in place of their names, and the parts of a key in place of {0}, {1}.
+
+    >>> say("{peak} m, {left:%&} left, {0}", {"peak": 11.04, "left": {"dead": 0.5, "stuck": 1.0}}, "on")
+    '11 m, 50 % (dead) and 100 % (stuck) left, on'
+    """
+    return _Words().vformat(text, key.split("/"), values)
 
 
 def short(value: float) -> str:
@@ -159,6 +193,6 @@ def relative_error(truth: xarray.DataArray, estimate: xarray.DataArray) -> float
     return float(np.sqrt(((truth - estimate) ** 2).mean() / (truth**2).mean()))
 
 
-def completed(runs: Iterable[Run]) -> bool:
+def all_completed(runs: Iterable[Run]) -> bool:
     """Whether all came to their end."""
     return all(run.status is Status.COMPLETED for run in runs)

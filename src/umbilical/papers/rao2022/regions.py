@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from umbilical import Status, load, simulate
 from umbilical.papers.rao2022.experiments import ARMS, GRIDS, OBSERVER, OBSERVERS, preset
-from umbilical.papers.rao2022.ledger import Edge, Kind, Number, percent, short
+from umbilical.papers.rao2022.ledger import WORDS, Edge, say, short
 from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS, gain_setting
 from umbilical.papers.rao2022.progress import Progress, parts
 
@@ -20,19 +20,10 @@ if TYPE_CHECKING:
 
 Place = tuple[str, str, str]
 """Case, arm and observer."""
-CASE_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 HALVINGS = 5
 """Of a step between two gains of the scan, a factor of 1.26: the edge is then known to 0.8 per cent."""
 NEAR = 1.03
 """Factor below and above an edge at which the grids are asked."""
-
-
-class Region(NamedTuple):
-    """Numbers, what they say, and what completes "only when" where they bound the claim."""
-
-    numbers: tuple[Number, ...]
-    words: str
-    when: str = ""
 
 
 def diverged(data: xarray.Dataset, arm: str) -> tuple[int, int]:
@@ -52,7 +43,7 @@ def better(data: xarray.Dataset, arm: str, observer: str) -> np.ndarray:
     return (peaks.sel(arm=arm) < peaks.sel(arm="without")).values
 
 
-def row(data: xarray.Dataset, along: str) -> xarray.Dataset:
+def preset_row(data: xarray.Dataset, along: str) -> xarray.Dataset:
     """The cells of a map along one of its axes, the other number being that of the presets."""
     across, at = ("y", "paper_y") if data.attrs["x"] == along else ("x", "paper_x")
     return data.sel({data.attrs[across]: data.attrs[at]}, method="nearest")
@@ -99,58 +90,38 @@ def same_on_grids(edge: float, place: Place) -> bool:
     return all(lost_at(points, elements) == [False, True] for elements in GRIDS)
 
 
-def runaways(found: Mapping[Place, Edge], arm: str) -> Region:
-    """The gains from which on the loop of an arm runs away, healthy and with a dead motor."""
-    places = list(product(GAIN_CASES, OBSERVERS))
-    gains = {(case, observer): found[case, arm, observer] for case, observer in places}
-    numbers = tuple(
-        Number(
-            f"edge_{observer}" if case == "none" else f"edge_{case}_{observer}",
-            gains[case, observer].gain,
-            "1",
-            f"gain from which on it runs away, {CASE_WORDS[case]}, observer {observer}",
-            Kind.EDGE,
-        )
-        for case, observer in places
-    )
-    on, off, dead_on, dead_off = (short(gains[place].gain) for place in places)
-    same = all(edge.same for edge in gains.values())
-    elements, near = ", ".join(map(str, GRIDS)), percent(NEAR - 1.0)
-    grids = f"{'the same' if same else 'NOT the same'} on {elements} elements, each within {near}"
-    return Region(
-        numbers,
-        f"What does drive it apart is a gain that is too large: {on} times the exact one, {off} times without the "
-        f"disturbance observer. A motor that dies at the start lowers the gain, so that it takes {dead_on} and "
-        f"{dead_off} times ({grids}).",
-    )
+def runaways(found: Mapping[Place, Edge], arm: str) -> dict[str, Any]:
+    """The gains from which on the loop of an arm runs away, healthy and with a dead motor, and that in words."""
+    prefixes = {"none": "edge", "dead": "edge_dead"}
+    edges = {f"{prefixes[case]}_{obs}": found[case, arm, obs] for case, obs in product(GAIN_CASES, OBSERVERS)}
+    values = {
+        **{name: edge.gain for name, edge in edges.items()},
+        "same": "the same" if all(edge.same for edge in edges.values()) else "NOT the same",
+        "grids": list(map(str, GRIDS)),
+        "near": NEAR - 1.0,
+    }
+    return values | {"runaways": say(WORDS["shared"]["runaways"], values)}
 
 
-def reversal(gain: xarray.Dataset) -> Region:
+def reversal(gain: xarray.Dataset) -> dict[str, Any]:
     """Where, without a fault and with the observer, the adaptive arm is the better one: by gain at the start."""
-    peaks = gain["peak"].sel(case="none", observer="on")
+    peaks = {arm: gain["peak"].sel(case="none", observer="on", arm=arm).values for arm in ARMS}
     gains = gain["gain"].values
-    exact = float(np.interp(0.0, np.log(gains), peaks.sel(arm="without").values))
-    preset = float(np.interp(np.log(0.5), np.log(gains), peaks.sel(arm="with").values))
-    start = _crossing(gains, peaks.sel(arm="with").values, exact)
-    belief = 1.0 / _crossing(gains, peaks.sel(arm="without").values, preset)
-    same = float(np.interp(0.0, np.log(gains), peaks.sel(arm="with").values)) / exact
-    numbers = (
-        Number("start_gain", start, "1", "gain at the start from which on fault control is better", Kind.CROSSING),
-        Number("belief_ratio", belief, "1", "believed over true factors from which on it is better", Kind.CROSSING),
-        Number("same_start", same, "1", "peak with over without fault control, both starting at the exact gain"),
-    )
-    bounds = [
-        *([f"the adaptation starts below {short(start)} of the exact gain"] if np.isfinite(start) else []),
-        *([f"the factors are believed less than {short(belief)} times too large"] if np.isfinite(belief) else []),
-    ]
-    words = (
-        f"It holds while {' and '.join(bounds) or 'the gain is one of the scan'}. Started at the exact gain, fault "
-        "control "
-        f"leaves {percent(same)} of the peak that known factors leave: what is compared is less two laws than two "
-        "gains, "
-        "and a larger gain leaves a smaller peak until the loop runs away."
-    )
-    return Region(numbers, words, " and ".join(bounds))
+    exact, adapted = (float(np.interp(0.0, np.log(gains), peaks[arm])) for arm in ARMS)
+    preset_peak = float(np.interp(np.log(0.5), np.log(gains), peaks["with"]))
+    start, belief = _crossing(gains, peaks["with"], exact), 1.0 / _crossing(gains, peaks["without"], preset_peak)
+    bounds = {
+        f"the adaptation starts below {short(start)} of the exact gain": start,
+        f"the factors are believed less than {short(belief)} times too large": belief,
+    }
+    when = " and ".join(words for words, bound in bounds.items() if np.isfinite(bound))
+    return {
+        "start_gain": start,
+        "belief_ratio": belief,
+        "same_start": adapted / exact,
+        "bounds": when or "the gain is one of the scan",
+        "when": when,
+    }
 
 
 def _crossing(gains: np.ndarray, peaks: np.ndarray, level: float) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from umbilical import files, simulate
 from umbilical.formats import to_netcdf
-from umbilical.papers.rao2022.claims import judge
+from umbilical.papers.rao2022.claims import judge_claims
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs, cell
 from umbilical.papers.rao2022.figures import PICTURES, Picture, needed
 from umbilical.papers.rao2022.figures.style import RESOLUTION
@@ -103,7 +103,7 @@ def reproduce(
     running, scanning, edging, drawing = parts(progress, shares)
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
     found = compute_maps(scans, scanning)
-    findings = () if names else judge(evidence(runs, found, edging))
+    findings = () if names else judge_claims(evidence(runs, found, edging))
     return Reproduction(runs, found, show_all(pictures, runs, found, processes, drawing), findings)
 
 
