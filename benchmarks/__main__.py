@@ -13,7 +13,7 @@ import argparse
 from benchmarks import measure_all
 from umbilical.cli.output import print_json, print_result
 from umbilical.cli.progress import announce_compilation, bar
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 
 def main() -> None:

@@ -12,8 +12,8 @@ import sys
 from pathlib import Path
 
 from umbilical.cli.progress import bar
-from umbilical.faces.text import markdown
 from umbilical.plots import plot_convergence, save_figure
+from umbilical.tables import markdown
 from umbilical.verify import Verification, verify_all, water_response
 from umbilical.verify.cases import Check, Result, worst_ratio
 from umbilical.verify.summary import shown_numbers

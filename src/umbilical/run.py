@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from html import escape
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -21,7 +21,9 @@ from umbilical.coordinates import attributes, coordinates, dimensions
 from umbilical.errors import OutputError
 from umbilical.formats import EXPORTS, RESULT_SCHEMA, to_netcdf
 from umbilical.quantities import CHANNELS, METRICS
+from umbilical.result import ResultFaces
 from umbilical.stored_numbers import METRIC
+from umbilical.tables import html_table, shown_unit, text_table
 
 if TYPE_CHECKING:
     import xarray
@@ -86,7 +88,7 @@ class Arrays:
         return data
 
 
-class Run:
+class Run(ResultFaces):
     """The result of one simulation, complete or not.
 
     Attributes:
@@ -101,6 +103,8 @@ class Run:
         >>> run["tip_displacement"].attrs["units"]
         'm'
     """
+
+    drawn_by: ClassVar[str] = "plot_overview"
 
     def __init__(
         self, data: xarray.Dataset | Arrays, scenario: Scenario, timing: Mapping[str, float] | None = None
@@ -190,26 +194,21 @@ class Run:
         return f"<Run {self._headline()} ({sizes})>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in self._rows()
-        )
-        notes = "".join(f"<p>{html.escape(notice)}</p>" for notice in self.notices)
-        plays = "<p><code>umbilical.show(run)</code> plays it.</p>" if self["time"].size > 1 else ""
-        return f"<p><b>{html.escape(self._headline())}</b></p><table>{rows}</table>{notes}{plays}"
+        notes = "".join(f"<p>{escape(notice)}</p>" for notice in self.notices)
+        plays = "<p><code>umbilical.show(run)</code> plays it.</p>" * (self["time"].size > 1)
+        return f"<p><b>{escape(self._headline())}</b></p>{html_table(self._rows())}{notes}{plays}"
 
     def summary(self) -> str:
         """How it ended and every metric, as an aligned table of text."""
-        rows = self._rows()
-        widths = [max((len(row[k]) for row in rows), default=0) for k in range(3)]
-        lines = [f"  {n:<{widths[0]}}  {v:>{widths[1]}} {u:<{widths[2]}}  {meaning}" for n, v, u, meaning in rows]
+        metrics = text_table(self._rows(), right=[1])
         notes = [f"  note: {notice}" for notice in self.notices]
-        return "\n".join([self._headline(), *lines, *self._largest_snaps(), *notes])
+        return "\n".join(filter(None, [self._headline(), metrics, self._largest_snaps(), *notes]))
 
-    def _largest_snaps(self) -> tuple[str, ...]:
+    def _largest_snaps(self) -> str:
         """When the largest snaps were."""
         largest = sorted(self.snaps.tolist(), key=lambda snap: -snap[1])[:_SHOWN_SNAPS]
         told = ", ".join(f"{peak:.4g} N at {time:.4g} s" for time, peak in largest)
-        return (f"  largest snaps: {told}",) * bool(largest)
+        return f"  largest snaps: {told}" if told else ""
 
     def to_dict(self) -> dict[str, Any]:
         """How it ended, its metrics and what is to be known of it, as plain data."""
@@ -227,12 +226,6 @@ class Run:
             "assumed": self.scenario.assumed,
         }
 
-    def plot(self, **options: Any) -> Any:
-        """Draw the overview; options as for :func:`umbilical.plots.plot_overview`."""
-        from umbilical import plot_overview
-
-        return plot_overview(self, **options)
-
     def _headline(self) -> str:
         status, when = f"{self.name}: {self.status.name}", "at t = "
         if self.reason.startswith(when):
@@ -242,7 +235,7 @@ class Run:
 
     def _rows(self) -> list[tuple[str, str, str, str]]:
         found = [(name, value, METRICS[name]) for name, value in self.metrics.items()]
-        return [(name, f"{value:.6g}", word.unit.removeprefix("1"), word.meaning) for name, value, word in found]
+        return [(name, f"{value:.6g}", shown_unit(word.unit), word.meaning) for name, value, word in found]
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
         """Store everything but ``timing`` as NetCDF4; the same run gives the same bytes on the same versions.

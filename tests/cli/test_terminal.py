@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from umbilical.cli.terminal import printable
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 posix = pytest.mark.skipif(os.name == "nt", reason="streams and signals of POSIX")
 EVIL = "\x1b]0;owned\x07\x1b[31m\u202ered\x9b1m\r\udcff"

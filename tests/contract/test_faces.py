@@ -34,7 +34,7 @@ RESULTS = (
 def test_each_result_has_them(kind: type) -> None:
     for name in ("summary", "to_dict", "plot", "_repr_html_"):
         assert callable(getattr(kind, name, None)), f"{kind.__name__} has no {name}"
-    if issubclass(kind, ResultFaces):
+    if issubclass(kind, ResultFaces) and kind is not Run:
         assert isinstance(import_module(kind.shown_by).FACE, Face)
     if "plot" not in vars(kind) and issubclass(kind, ResultFaces):
         assert callable(getattr(plots, kind.drawn_by))

@@ -13,8 +13,6 @@ FILES = {
     for path in (SOURCE / "umbilical").rglob("*.py")
 }
 LATER = {
-    "faces.certificate": {"certificate"},
-    "run": {"umbilical"},
     "verify.verification": {"plots"},
 }
 """What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would

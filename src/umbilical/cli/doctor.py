@@ -11,7 +11,7 @@ from typing import Any
 
 from umbilical.cli.options import Json
 from umbilical.cli.output import print_json, print_result
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 NEEDED = ("numpy", "scipy", "numba", "pydantic", "xarray", "h5netcdf", "h5py", "matplotlib", "rich", "typer", "mpmath")
 PARTNERS = (

@@ -13,8 +13,8 @@ from umbilical.cli.terminal import (
 )
 from umbilical.errors import ScenarioError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
-from umbilical.faces.text import finite_only
 from umbilical.result import ResultFaces
+from umbilical.tables import finite_only
 
 EXIT_CODES = {
     0: "completed",

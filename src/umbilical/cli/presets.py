@@ -12,7 +12,7 @@ from umbilical.cli.options import Force, source
 from umbilical.cli.output import print_result
 from umbilical.cli.targets import write_scenario
 from umbilical.errors import FileError
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.scenario.presets import Presets

@@ -9,7 +9,7 @@ from typer import Argument, BadParameter, Option
 
 from umbilical.cli.options import Json, source
 from umbilical.cli.output import conclude, print_json, print_result
-from umbilical.faces.text import text_table, wrapped
+from umbilical.tables import text_table, wrapped
 
 if TYPE_CHECKING:
     from umbilical.scenario import Scenario

@@ -7,9 +7,10 @@ from dataclasses import asdict
 from math import isnan, log
 from typing import TYPE_CHECKING, Any
 
+from umbilical.certificate import largest_bounds, lyapunov_of
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import CERTIFICATE
+from umbilical.tables import shown_unit, text_table
 
 if TYPE_CHECKING:
     from umbilical.certificate import Certificate, Inequality
@@ -93,8 +94,6 @@ def _row(inequality: Inequality) -> tuple[str, ...]:
 
 def _numbers(certificate: Certificate) -> list[tuple[str, float]]:
     """Single numbers of a certificate by name."""
-    from umbilical.certificate import lyapunov_of
-
     names = ("rate", "fixed_length_rate", "exact_rate", "spent", "residual")
     start = lyapunov_of(certificate.loop, certificate.weights, certificate.start)
     return [
@@ -121,8 +120,6 @@ def _proof(certificate: Certificate) -> str:
 
 def _consequences(certificate: Certificate) -> Iterator[str]:
     """Bounds of V and of the displacement from the scenario's own start."""
-    from umbilical.certificate import largest_bounds
-
     found = largest_bounds(certificate)
     if found:
         yield f"  V stays below {found.lyapunov_largest:.4g} J and ends below {found.lyapunov_end:.4g} J"
@@ -150,8 +147,6 @@ def _audit_report(audit: Audit) -> Iterator[str]:
 
 def _document(certificate: Certificate, audit: Audit | None = None) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
-    from umbilical.certificate import largest_bounds
-
     bounds = largest_bounds(certificate)
     return {
         "status": "CERTIFIED" if certificate.holds else "NOT_CERTIFIED",

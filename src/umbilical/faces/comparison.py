@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import shown_unit, text_table
 from umbilical.quantities import METRICS
+from umbilical.tables import shown_unit, text_table
 
 if TYPE_CHECKING:
     from umbilical.analysis.comparison import Comparison

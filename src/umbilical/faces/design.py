@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from umbilical.faces import margins
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.synthesis.design import Design

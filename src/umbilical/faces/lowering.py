@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.faces.operability import remarks, thinned
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.screening import Lowering

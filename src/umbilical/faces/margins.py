@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.stability.grid import GridJudgement

@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical.faces import confirmation
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.screening import Operability, Operation

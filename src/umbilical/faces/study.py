@@ -8,7 +8,6 @@ import numpy as np
 
 from umbilical.analysis.paired import Comparison, Estimate
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import shown_unit, text_table, wrapped
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
 from umbilical.studies.members import Draws
@@ -16,6 +15,7 @@ from umbilical.studies.rows import STATUSES
 from umbilical.studies.sensitivity import Influence, rank
 from umbilical.studies.statistics import interval_text, percentage
 from umbilical.studies.sweep import worst
+from umbilical.tables import shown_unit, text_table, wrapped
 
 if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult

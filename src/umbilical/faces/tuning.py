@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import text_table
+from umbilical.tables import text_table
 
 if TYPE_CHECKING:
     from umbilical.studies.tune import Tuned

@@ -21,6 +21,7 @@ from umbilical.scenario.rope import Rope
 from umbilical.scenario.sensors import Sensors
 from umbilical.scenario.text import to_toml
 from umbilical.scenario.winch import Winch
+from umbilical.tables import html_table
 
 ELEMENTS = 64
 TOLERANCE = 1e-3
@@ -123,9 +124,8 @@ class Scenario(Record):
     def _repr_html_(self) -> str:
         """Every value with its unit and meaning, as a table for notebooks."""
         cells = ((e.key, e.value[:60], e.unit, e.meaning) for e in inventory(self, self.assumed))
-        rows = "".join("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in cells)
         head = f"<summary><b>{escape(self.name)}</b>: {escape(self.description)}</summary>"
-        return f"<details>{head}<table>{rows}</table></details>"
+        return f"<details>{head}{html_table(cells)}</details>"
 
     def replace(self, overrides: Mapping[str, Any]) -> Scenario:
         """The same scenario with some values changed.

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.faces.text import finite_only, markdown, text_table
+from umbilical.tables import finite_only, markdown, text_table
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification

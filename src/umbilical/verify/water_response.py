@@ -13,9 +13,9 @@ import numpy as np
 from scipy import sparse
 
 from umbilical.engine.linear import linearise_plant
-from umbilical.faces.text import markdown
 from umbilical.scenario.scenario import Scenario
 from umbilical.stability.impedance import hanging_cable, payload_stiffness, waves_at_rov
+from umbilical.tables import markdown
 from umbilical.verify import engine
 from umbilical.verify.cases import Case, Check, at_least
 from umbilical.verify.engine import sine

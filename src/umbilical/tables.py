@@ -1,10 +1,11 @@
-"""Tables of text as wide as the terminal, and numbers as JSON holds them."""
+"""Rows of cells as text as wide as the terminal, as Markdown and as HTML; data as JSON holds it."""
 
 from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
 from sys import maxsize
 from textwrap import wrap
 from typing import Any
@@ -64,6 +65,16 @@ def markdown(rows: Sequence[Sequence[str]]) -> str:
     """
     lines = [rows[0], ["---"] * len(rows[0]), *rows[1:]]
     return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in lines)
+
+
+def html_table(rows: Iterable[Sequence[str]]) -> str:
+    """Rows of cells as a table in HTML.
+
+    >>> html_table([("a < b", "1")])
+    '<table><tr><td>a &lt; b</td><td>1</td></tr></table>'
+    """
+    cells = ("".join(f"<td>{escape(cell)}</td>" for cell in row) for row in rows)
+    return f"<table>{''.join(f'<tr>{row}</tr>' for row in cells)}</table>"
 
 
 def wrapped(text: str) -> str:
