@@ -13,7 +13,7 @@ from umbilical.papers.rao2022.article import article
 from umbilical.papers.rao2022.errata import errata
 from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs
-from umbilical.papers.rao2022.figures import PICTURES, SEEN_IN
+from umbilical.papers.rao2022.figures import PICTURES
 from umbilical.papers.rao2022.ledger import Finding
 from umbilical.papers.rao2022.reproduction import Reproduction, show
 
@@ -101,8 +101,7 @@ def test_versions_and_the_hash_of_every_file_of_data(report: str, found: Reprodu
 def test_claims_lead_to_their_figures_and_the_paper_is_linked(report: str, findings: tuple[Finding, ...]) -> None:
     """Only to figures that are on the page; every claim has one somewhere."""
     assert '<a href="https://doi.org/10.3390/jmse10111772">' in report
-    assert {finding.id for finding in findings} == SEEN_IN.keys()
-    assert {name for names in SEEN_IN.values() for name in names} <= PICTURES.keys()
+    assert {finding.id for finding in findings} == {c for picture in PICTURES.values() for c in picture.claims.split()}
     claim = report.partition('id="C4"')[2].partition("</article>")[0]
     assert '<a href="#fig4">Fig. 4</a>' in claim
     assert '<a href="#fig3">' not in report

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 
 from umbilical import load
 from umbilical.papers.rao2022.errata import errata
 from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell
-from umbilical.papers.rao2022.figures import DOI, PICTURES, SEEN_IN, SOURCE
+from umbilical.papers.rao2022.figures import DOI, SOURCE, Picture
 from umbilical.papers.rao2022.ledger import Finding, Verdict
 from umbilical.papers.rao2022.maps import GRID
 from umbilical.papers.rao2022.reproduction import KINDS, Reproduction
@@ -88,18 +88,18 @@ def _ledger(found: Reproduction) -> Html:
     findings = found.findings
     rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
     ledger = table(("claim", "statement", "verdict"), rows, caption="The ledger", stacked=True)
-    shown = {one.picture.name for one in found.shown}
-    return join([ledger, *(_claim(finding, shown) for finding in findings)])
+    pictures = [one.picture for one in found.shown]
+    return join([ledger, *(_claim(finding, pictures) for finding in findings)])
 
 
 def _verdict(finding: Finding) -> Html:
     return element("span", finding.conclusion, class_=f"verdict {CLASSES[finding.verdict]}")
 
 
-def _claim(finding: Finding, shown: Collection[str]) -> Html:
+def _claim(finding: Finding, shown: Iterable[Picture]) -> Html:
     """One claim; its figures are linked where they are on the page."""
     rows = [(n.meaning, f"{n.value:.4g}", "" if n.unit == "1" else n.unit) for n in finding.numbers]
-    links = [link(PICTURES[name].title, f"#{name}") for name in SEEN_IN[finding.id] if name in shown]
+    links = [link(one.title, f"#{one.name}") for one in shown if finding.id in one.claims.split()]
     numbers = table(("number", "value", "unit"), rows, numbers=(1,))
     return element(
         "article",

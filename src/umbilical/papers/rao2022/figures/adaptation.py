@@ -2,72 +2,46 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import xarray
 
 from umbilical.papers.rao2022.experiments import Runs
-from umbilical.papers.rao2022.figures import style
-from umbilical.papers.rao2022.figures.picture import Picture, along, weights
+from umbilical.papers.rao2022.figures.picture import Picture, abreast, allocation_weights
+from umbilical.papers.rao2022.figures.style import Panel, lines_of, over_time
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-ADAPTATION = {
+EXPERIMENTS = {
     "without": "blind, dead, without",
     "with": "blind, dead, with",
     "fast": "blind, dead, fast",
     "boxed": "blind, dead, boxed",
 }
-"""Arms of the figure on the adaptive law, by the experiments that show them."""
+"""Arms by the experiments that show them."""
 LARGEST_KAPPA = 5.0
 """rad2/(N s2), ten times the exact value: beyond, the loop has gone."""
 
 
-def adaptation(runs: Runs) -> xarray.Dataset:
+def _data(runs: Runs) -> xarray.Dataset:
     """The ROV and kappa_0 without the disturbance observer, motor 2 dead."""
-    chosen = [runs[name] for name in ADAPTATION.values()]
     size = {"units": "m", "symbol": "|y(l,t)|", "long_name": "size of the ROV's displacement"}
-    tips = [abs(run["tip_displacement"]).assign_attrs(size) for run in chosen]
-    gains = [weights(run)["kappa_0"] for run in chosen]
-    arms = list(ADAPTATION)
-    return xarray.Dataset({"tip_size": along(tips, "arm", arms), "kappa_0": along(gains, "arm", arms)})
+    chosen = {arm: runs[name] for arm, name in EXPERIMENTS.items()}
+    tips = {arm: abs(run["tip_displacement"]).assign_attrs(size) for arm, run in chosen.items()}
+    gains = {arm: allocation_weights(run)["kappa_0"] for arm, run in chosen.items()}
+    return xarray.Dataset({"tip_size": abreast(tips, "arm"), "kappa_0": abreast(gains, "arm")})
 
 
-def draw_adaptation(data: xarray.Dataset) -> Figure:
-    """``tip_size`` and ``kappa_0`` over ``arm`` and ``time``; an arm ends where its run diverged."""
-    figure, panels = style.column(2, 1.6)
-    for number, (ax, name) in enumerate(zip(panels, ("tip_size", "kappa_0"), strict=True)):
-        for arm in data["arm"].values:
-            values = data[name].sel(arm=arm).dropna("time")
-            style.line(ax, values, str(arm))
-            if values.sizes["time"] < data.sizes["time"]:
-                ax.plot(
-                    values["time"][-1],
-                    min(float(values[-1]), LARGEST_KAPPA),
-                    "x",
-                    color=style.LOOKS[arm].colour,
-                    ms=4,
-                    clip_on=False,
-                )
-        style.panel(ax, f"{style.letter(number)} {data[name].attrs['long_name']}", style.unit_label(data[name]))
-    panels[0].set_yscale("log")
-    panels[0].set_ylim(bottom=1e-3)
-    style.log_axis(panels[0].yaxis)
-    panels[1].set_ylim(0.0, LARGEST_KAPPA)
-    style.time_panels(panels, data)
-    style.legend(figure, 2)
-    return figure
+def _panels(data: xarray.Dataset) -> list[Panel]:
+    """An arm ends where its run diverged."""
+    tip, kappa = ((data[name].attrs["long_name"], lines_of(data, name, "arm")) for name in ("tip_size", "kappa_0"))
+    return [Panel(*tip, bottom=1e-3, log=True), Panel(*kappa, bottom=0.0, top=LARGEST_KAPPA)]
 
 
 PICTURE = Picture(
     "adaptation",
     "Where adaptation helps and harms",
     "Motor 2 dead, no disturbance observer. The adaptive law helps; ten times faster it runs away (the line "
-    "ends); in "
-    "a box it does not.",
-    draw_adaptation,
-    tuple(ADAPTATION.values()),
-    adaptation,
-    "blind, dead, with",
+    "ends); in a box it does not.",
+    "C11 A1 A2 A3",
+    over_time(_panels, 1.6, 2),
+    tuple(EXPERIMENTS.values()),
+    _data,
+    EXPERIMENTS["with"],
 )

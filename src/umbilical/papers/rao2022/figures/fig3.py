@@ -2,44 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import xarray
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import Runs
-from umbilical.papers.rao2022.figures import style
-from umbilical.papers.rao2022.figures.picture import CONTROLLERS, THREE, Picture, along
+from umbilical.papers.rao2022.figures.picture import CONTROLLERS, Picture, abreast, by_controller
+from umbilical.papers.rao2022.figures.style import Panel, lines_of, over_time
 from umbilical.plots.cable import PLACES
 from umbilical.plots.figure import at_sigma
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+
+def _data(runs: Runs) -> xarray.Dataset:
+    """y at four places under three controllers."""
+
+    def places(run: Run) -> xarray.DataArray:
+        words = run["displacement"].attrs
+        return abreast({name: at_sigma(run, share).assign_attrs(words) for name, share in PLACES.items()}, "place")
+
+    return xarray.Dataset({"displacement": by_controller(runs, places)})
 
 
-def positions(runs: Runs) -> xarray.Dataset:
-    """Fig. 3: y at four places under three controllers."""
-    places = [
-        along(
-            [at_sigma(run, share).assign_attrs(run["displacement"].attrs) for share in PLACES.values()],
-            "place",
-            [*PLACES],
-        )
-        for run in map(runs.__getitem__, CONTROLLERS.values())
-    ]
-    return xarray.Dataset({"displacement": along(places, "controller", list(CONTROLLERS))})
-
-
-def draw_positions(data: xarray.Dataset) -> Figure:
-    """Fig. 3: ``displacement`` over ``controller``, ``place`` and ``time``; the ROV at the bottom."""
-    y = data["displacement"]
-    figure, panels = style.column(y.sizes["place"], 0.95)
-    for number, (ax, place) in enumerate(zip(panels, y["place"].values, strict=True)):
-        for who in y["controller"].values:
-            style.line(ax, y.sel(controller=who, place=place), str(who))
-        style.panel(ax, f"{style.letter(number)} $x = {place}$", style.unit_label(y))
-    style.time_panels(panels, data)
-    style.legend(figure)
-    return figure
+def _panels(data: xarray.Dataset) -> Iterator[Panel]:
+    for place in data["place"].values:
+        yield Panel(f"$x = {place}$", lines_of(data, "displacement", "controller", place=place))
 
 
 PICTURE = Picture(
@@ -47,7 +34,8 @@ PICTURE = Picture(
     "Fig. 3",
     "Displacement at l/4, l/2, 3l/4 and l without control, with PD and with the proposed law, which is the line "
     "at zero.",
-    draw_positions,
-    THREE,
-    positions,
+    "C1 C2 C3",
+    over_time(_panels, 0.95),
+    tuple(CONTROLLERS.values()),
+    _data,
 )

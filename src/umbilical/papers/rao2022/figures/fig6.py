@@ -2,37 +2,27 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import xarray
 
 from umbilical.papers.rao2022.experiments import ARMS, CASES, Runs, cell
-from umbilical.papers.rao2022.figures import style
 from umbilical.papers.rao2022.figures.picture import Picture, by_case
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from umbilical.papers.rao2022.figures.style import NO_FAULT, Panel, case_title, faults_first, lines_of, over_time
 
 
-def boundary(runs: Runs) -> xarray.Dataset:
-    """Fig. 6: y(l,t) in every case with and without fault control."""
+def _data(runs: Runs) -> xarray.Dataset:
+    """y(l,t) in every case with and without fault control."""
     data = by_case(runs, "tip_displacement", CASES)
     data["tip_displacement"].attrs["symbol"] = "y(l,t)"
     return data
 
 
-def draw_boundary(data: xarray.Dataset) -> Figure:
-    """Fig. 6: ``tip_displacement`` over ``case``, ``arm`` and ``time``; (a) each fault, (b) none."""
-    y = data["tip_displacement"]
-    cases = [*(c for c in y["case"].values if c != style.NO_FAULT), style.NO_FAULT]
-    figure, panels = style.column(len(cases), 1.0)
-    for ax, case in zip(panels, cases, strict=True):
-        for arm in y["arm"].values:
-            style.line(ax, y.sel(case=case, arm=arm), str(arm))
-        style.panel(ax, style.case_title(str(case), data, str(cases.index(case) + 1)), style.unit_label(y))
-    style.mark_cases(panels, cases, data)
-    style.legend(figure, 3)
-    return figure
+def _panels(data: xarray.Dataset) -> Iterator[Panel]:
+    """(a) each fault, (b) none."""
+    for number, case in enumerate(faults_first(data), start=1):
+        lines = lines_of(data, "tip_displacement", "arm", case=case)
+        yield Panel(case_title(case, data, str(number)), lines, marked=case != NO_FAULT)
 
 
 PICTURE = Picture(
@@ -40,8 +30,9 @@ PICTURE = Picture(
     "Fig. 6",
     "The ROV (a) with a fault of motor 2, three kinds of it, and (b) without one; thrust factors known, and fault "
     "control.",
-    draw_boundary,
+    "C6 C7a C7b C7c C11 T1 T3",
+    over_time(_panels, 1.0),
     tuple(cell(case, arm) for case in CASES for arm in ARMS),
-    boundary,
+    _data,
     cell("stuck", "with"),
 )

@@ -2,40 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from itertools import product
 
 import xarray
 
 from umbilical.papers.rao2022.experiments import Runs, cell
-from umbilical.papers.rao2022.figures import style
-from umbilical.papers.rao2022.figures.picture import FAILED, Picture, along, weights
+from umbilical.papers.rao2022.figures.picture import Picture, abreast, allocation_weights
+from umbilical.papers.rao2022.figures.style import LOOKS, Panel, over_time
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+CASES = {case: cell(case, "with") for case in ("dead", "stuck")}
 
 
-def kappa(runs: Runs) -> xarray.Dataset:
+def _data(runs: Runs) -> xarray.Dataset:
     """kappa_0 and the sum of the offsets, with the values that would deliver what is commanded."""
-    cases = ("dead", "stuck")
-    chosen = [runs[cell(case, "with")] for case in cases]
-    found = {name: along([weights(run)[name] for run in chosen], "case", list(cases)) for name in weights(chosen[0])}
-    return xarray.Dataset(found)
+    found = {case: allocation_weights(runs[name]) for case, name in CASES.items()}
+    names = found["dead"].keys()
+    return xarray.Dataset({name: abreast({c: weights[name] for c, weights in found.items()}, "case") for name in names})
 
 
-def draw_kappa(data: xarray.Dataset) -> Figure:
-    """``kappa_0`` and ``kappa_sum`` over ``case`` and ``time``, each with its ``ideal``, after the fault."""
-    names = ("kappa_0", "kappa_sum")
-    figure, panels = style.column(len(names) * data.sizes["case"], 0.95)
-    places = [(case, name) for case in data["case"].values for name in names]
-    for number, (ax, (case, name)) in enumerate(zip(panels, places, strict=True)):
-        style.line(ax, data[name].sel(case=case), "with", "adapted")
-        style.line(ax, data[f"{name}_ideal"].sel(case=case), "ideal", "ideal")
-        style.panel(
-            ax, f"{style.letter(number)} motor {data.attrs['fault_motor']} {case}", style.unit_label(data[name])
-        )
-    style.time_panels(panels, data)
-    style.legend(figure)
-    return figure
+def _panels(data: xarray.Dataset) -> Iterator[Panel]:
+    adapted = LOOKS["with"]._replace(text="adapted")
+    for case, name in product(data["case"].values, ("kappa_0", "kappa_sum")):
+        one = data.sel(case=case)
+        lines = [(one[name], adapted), (one[f"{name}_ideal"], LOOKS["ideal"])]
+        yield Panel(f"motor {data.attrs['fault_motor']} {case}", lines)
 
 
 PICTURE = Picture(
@@ -43,8 +34,9 @@ PICTURE = Picture(
     "kappa(t)",
     "The adaptive allocation: kappa_0 and the sum of the offsets, with the values that would deliver what is "
     "commanded.",
-    draw_kappa,
-    FAILED,
-    kappa,
-    cell("dead", "with"),
+    "C7b",
+    over_time(_panels, 0.95),
+    tuple(CASES.values()),
+    _data,
+    CASES["dead"],
 )

@@ -22,53 +22,45 @@ INK = "#000000"
 """Becomes the text's colour on a page, in the light and in the dark."""
 
 
-def draw_map(data: xarray.Dataset) -> Figure:
-    """``peak`` over ``observer``, ``arm``, and the two dimensions named in ``data.attrs``.
+def _draw(data: xarray.Dataset) -> Figure:
+    """Arms beside each other in one scale of colours, a row for each observer."""
+    from matplotlib.colors import LogNorm
 
-    Empty cells with a small x diverged; dots mark where an arm is better than known factors; the cross is the preset.
-    """
     observers, arms = data["observer"].values, data["arm"].values
     figure, panels = style.column(len(observers), 1.6, len(arms))
-    for row, observer in enumerate(observers):
-        own = panels[row * len(arms) : (row + 1) * len(arms)]
-        _row(figure, own, data, str(observer))
-        for place, (ax, arm) in enumerate(zip(own, arms, strict=True)):
-            title = f"{style.letter(row * len(arms) + place)} {ARM_WORDS[str(arm)]}"
-            heading = "" if place else f"disturbance observer {observer}\n"
-            _labels(ax, data, heading + title, place == 0, row == len(observers) - 1)
+    for k, row in enumerate(observers):
+        axes = panels[k * len(arms) : (k + 1) * len(arms)]
+        peaks = data["peak"].sel(observer=row).transpose("arm", data.attrs["y"], data.attrs["x"])
+        norm = LogNorm(vmin=float(np.nanmin(peaks)), vmax=float(np.nanmax(peaks)))
+        for ax, arm in zip(axes, arms, strict=True):
+            cells = _cells(ax, data, peaks.sel(arm=arm).values, norm)
+            _better(ax, data, peaks.sel(arm=arm).values, peaks.sel(arm="without").values)
+            heading = f"disturbance observer {row}\n" if ax is axes[0] else ""
+            size = style.TYPE if len(arms) < 3 else style.TYPE - 1.4
+            title = f"{heading}{style.letter(panels.index(ax))} {ARM_WORDS[str(arm)]}"
+            ax.set_title(title, fontsize=size, loc="left", pad=3)
+            tidy = {"labelsize": style.TYPE - 1, "length": 2, "pad": 2}
+            ax.tick_params(**tidy, labelleft=ax is axes[0], labelbottom=row == observers[-1])
+        axes[0].set_ylabel(_axis(data[data.attrs["y"]]), fontsize=style.TYPE)
+        style.log_axis(style.colour_bar(figure, cells, axes, style.unit_label(data["peak"])).ax.yaxis)
     figure.supxlabel(_axis(data[data.attrs["x"]]), fontsize=style.TYPE)
     return figure
 
 
-def _row(figure: Figure, panels: list[Axes], data: xarray.Dataset, observer: str) -> None:
-    """The arms beside each other in one scale of colours."""
-    from matplotlib.colors import LogNorm
-
-    peaks = data["peak"].sel(observer=observer)
-    norm = LogNorm(vmin=float(np.nanmin(peaks)), vmax=float(np.nanmax(peaks)))
-    pictures = [_cells(ax, peaks.sel(arm=arm), data, norm) for ax, arm in zip(panels, data["arm"].values, strict=True)]
-    for ax, arm in zip(panels, data["arm"].values, strict=True):
-        _better(ax, peaks.sel(arm=arm), peaks.sel(arm="without"), data)
-    bar = figure.colorbar(pictures[0], ax=panels, pad=0.02)
-    bar.set_label(style.unit_label(data["peak"]), fontsize=style.TYPE)
-    bar.ax.tick_params(labelsize=style.TYPE - 1, length=2, pad=2)
-    style.log_axis(bar.ax.yaxis)
-
-
-def _cells(ax: Axes, peaks: xarray.DataArray, data: xarray.Dataset, norm: LogNorm) -> QuadMesh:
+def _cells(ax: Axes, data: xarray.Dataset, peaks: np.ndarray, norm: LogNorm) -> QuadMesh:
+    """Peaks as colours; empty cells with a small x diverged, a white cross is the preset."""
     from matplotlib import colormaps
 
-    x, y = data.attrs["x"], data.attrs["y"]
-    values = np.ma.masked_invalid(peaks.transpose(y, x).values)
+    x, y = (data[data.attrs[axis]] for axis in "xy")
+    values = np.ma.masked_invalid(peaks)
     colours = colormaps["viridis"].with_extremes(bad=(0.0, 0.0, 0.0, 0.0))
     seamless = {"edgecolors": "face", "linewidth": 0.3}  # else a browser shows hairlines between cells
-    picture = ax.pcolormesh(_borders(data[x]), _borders(data[y]), values, cmap=colours, norm=norm, **seamless)
+    picture = ax.pcolormesh(_borders(x), _borders(y), values, cmap=colours, norm=norm, **seamless)
     rows, columns = np.nonzero(values.mask)
-    ax.plot(data[x].values[columns], data[y].values[rows], "x", color=INK, markersize=1.8, markeredgewidth=0.4)
-    ax.set_xscale(data[x].attrs["scale"])
-    ax.set_yscale(data[y].attrs["scale"])
-    for axis, name, ticks in ((ax.xaxis, x, 12 // data.sizes["arm"]), (ax.yaxis, y, 6)):
-        if data[name].attrs["scale"] == "log":
+    ax.plot(x.values[columns], y.values[rows], "x", color=INK, markersize=1.8, markeredgewidth=0.4)
+    ax.set(xscale=x.attrs["scale"], yscale=y.attrs["scale"])
+    for axis, values_of, ticks in ((ax.xaxis, x, 12 // data.sizes["arm"]), (ax.yaxis, y, 6)):
+        if values_of.attrs["scale"] == "log":
             style.log_axis(axis, ticks)
     ax.plot(data.attrs["paper_x"], data.attrs["paper_y"], "+", color="white", markersize=5, markeredgewidth=1.0)
     return picture
@@ -83,21 +75,11 @@ def _borders(axis: xarray.DataArray) -> np.ndarray:
     return np.exp(borders) if log else borders
 
 
-def _better(ax: Axes, peaks: xarray.DataArray, without: xarray.DataArray, data: xarray.Dataset) -> None:
+def _better(ax: Axes, data: xarray.Dataset, own: np.ndarray, other: np.ndarray) -> None:
     """Dots where an arm is better than the one without fault control."""
-    x, y = data.attrs["x"], data.attrs["y"]
-    own, other = (values.transpose(y, x).values for values in (peaks, without))
-    better = (own < other) | (np.isnan(other) & ~np.isnan(own))
-    rows, columns = np.nonzero(better)
-    ax.plot(data[x].values[columns], data[y].values[rows], ".", color="white", markersize=1.2)
-
-
-def _labels(ax: Axes, data: xarray.Dataset, title: str, leftmost: bool, lowest: bool) -> None:
-    size = style.TYPE if data.sizes["arm"] < 3 else style.TYPE - 1.4
-    ax.set_title(title, fontsize=size, loc="left", pad=3)
-    ax.tick_params(labelsize=style.TYPE - 1, length=2, pad=2, labelleft=leftmost, labelbottom=lowest)
-    if leftmost:
-        ax.set_ylabel(_axis(data[data.attrs["y"]]), fontsize=style.TYPE)
+    rows, columns = np.nonzero((own < other) | (np.isnan(other) & ~np.isnan(own)))
+    x, y = (data[data.attrs[axis]].values for axis in "xy")
+    ax.plot(x[columns], y[rows], ".", color="white", markersize=1.2)
 
 
 def _axis(array: xarray.DataArray) -> str:
@@ -105,24 +87,28 @@ def _axis(array: xarray.DataArray) -> str:
     return style.raised(array.attrs["long_name"] + (f" [{unit}]" if unit != "1" else ""))
 
 
-MARKS = "Dots: better than known factors; empty cells with a small x: diverged; white cross: the preset."
+def _picture(name: str, title: str, claims: str, caption: str) -> Picture:
+    marks = "Dots: better than known factors; empty cells with a small x: diverged; white cross: the preset."
+    return Picture(name, title, f"{caption} {marks}", claims, _draw)
+
+
 PICTURES = (
-    Picture(
+    _picture(
         "map-time",
         "Loss of thrust by the instant of the fault",
-        f"Peak of the ROV after the fault. {MARKS}",
-        draw_map,
+        "C7a C7b A1",
+        "Peak of the ROV after the fault.",
     ),
-    Picture(
+    _picture(
         "map-factors",
         "Stuck value by the error of the known factors",
-        f"Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal. {MARKS}",
-        draw_map,
+        "C7a C7b A1 A3",
+        "Peak of the ROV after the fault. Fault control uses no factors, so its columns are equal.",
     ),
-    Picture(
+    _picture(
         "map-rates",
         "Start of the adaptation by its rate",
-        f"Peak of the ROV after motor 2 has died. With known factors nothing adapts, so all cells are equal. {MARKS}",
-        draw_map,
+        "A2 A3",
+        "Peak of the ROV after motor 2 has died. With known factors nothing adapts, so all cells are equal.",
     ),
 )

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray
 
+from umbilical import Run
 from umbilical.papers.rao2022.experiments import Runs
 from umbilical.papers.rao2022.figures import style
-from umbilical.papers.rao2022.figures.picture import CONTROLLERS, THREE, Picture, along
+from umbilical.papers.rao2022.figures.picture import CONTROLLERS, Picture, by_controller
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,36 +18,33 @@ if TYPE_CHECKING:
 
 ROWS = 500
 """Of pixels along the cable, more than a panel has."""
+THIN = slice(None, None, 4)
+"""Of the samples, those that a figure of this size shows."""
 
 
-def spacetime(runs: Runs) -> xarray.Dataset:
-    """y(x,t) under three controllers, thinned to what a figure of this size shows."""
-    thin = slice(None, None, 4)
+def _data(runs: Runs) -> xarray.Dataset:
+    """y(x,t) under three controllers, thinned."""
     shares = np.linspace(0.0, 1.0, 51)
-    maps = []
-    for name in CONTROLLERS.values():
-        y = runs[name]["displacement"].isel(time=thin)
-        nodes = runs[name]["sigma"].values
-        values = np.array([np.interp(shares, nodes, row) for row in y.values])
-        words = runs[name]["sigma"].attrs
-        maps.append(
-            xarray.DataArray(
-                values, {"time": y["time"], "sigma": ("sigma", shares, words)}, ("time", "sigma"), attrs=y.attrs
-            )
-        )
-    length = runs["free"]["length"].isel(time=thin)
-    return xarray.Dataset({"displacement": along(maps, "controller", list(CONTROLLERS)), "length": length})
+
+    def thinned(run: Run) -> xarray.DataArray:
+        y, sigma = run["displacement"].isel(time=THIN), run["sigma"]
+        values = np.array([np.interp(shares, sigma.values, row) for row in y.values])
+        coordinates = {"time": y["time"], "sigma": ("sigma", shares, sigma.attrs)}
+        return xarray.DataArray(values, coordinates, ("time", "sigma"), attrs=y.attrs)
+
+    length = runs["free"]["length"].isel(time=THIN)
+    return xarray.Dataset({"displacement": by_controller(runs, thinned), "length": length})
 
 
-def draw_spacetime(data: xarray.Dataset) -> Figure:
-    """``displacement`` over ``controller``, ``time`` and ``sigma``; the coloured region ends where the cable ends."""
+def _draw(data: xarray.Dataset) -> Figure:
+    """The coloured region ends where the cable ends."""
     y = data["displacement"]
     figure, panels = style.column(y.sizes["controller"], 1.45)
     for number, (ax, who) in enumerate(zip(panels, y["controller"].values, strict=True)):
         _cable(figure, ax, y.sel(controller=who), data["length"])
-        style.panel(ax, f"{style.letter(number)} {style.LOOKS[str(who)].text}", "$x$ [m]")
+        style.dress_panel(ax, f"{style.letter(number)} {style.LOOKS[str(who)].text}", "$x$ [m]")
+        style.time_axis(ax, data, labelled=ax is panels[-1])
         ax.grid(visible=False)
-    style.time_panels(panels, data)
     return figure
 
 
@@ -60,17 +58,16 @@ def _cable(figure: Figure, ax: Axes, y: xarray.DataArray, length: xarray.DataArr
     power = 3 * int(np.floor(np.log10(size) / 3.0))
     look = {"cmap": "RdBu_r", "vmin": -size / 10.0**power, "vmax": size / 10.0**power, "aspect": "auto"}
     picture = ax.imshow(values.T / 10.0**power, extent=(times[0], times[-1], longest, 0.0), **look)
-    bar = figure.colorbar(picture, ax=ax, pad=0.02)
     unit = style.unit_label(y)
-    bar.set_label(unit.replace("[", f"[$10^{{{power}}}$ ") if power else unit, fontsize=style.TYPE)
-    bar.ax.tick_params(labelsize=style.TYPE - 1, length=2, pad=2)
+    style.colour_bar(figure, picture, ax, unit.replace("[", f"[$10^{{{power}}}$ ") if power else unit)
 
 
 PICTURE = Picture(
     "spacetime",
     "The cable over time",
     "Displacement of the whole cable, vessel at the top; each panel has its own scale.",
-    draw_spacetime,
-    THREE,
-    spacetime,
+    "C1 C2",
+    _draw,
+    tuple(CONTROLLERS.values()),
+    _data,
 )

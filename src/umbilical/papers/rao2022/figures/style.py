@@ -1,9 +1,10 @@
-"""What the figures of a paper share: one column's width, small type, one look for each line, panels with letters."""
+"""What the figures of a paper share: one column's width, small type, one look for each line, panels over time."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from umbilical.plots.figure import COLOURS, QUIET, axis_label, new_figure
@@ -12,6 +13,8 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colorbar import Colorbar
     from matplotlib.figure import Figure
 
 COLUMN_WIDTH = 85.0 / 25.4
@@ -21,7 +24,6 @@ TYPE = 7.0
 RESOLUTION = 300
 """Dots per inch of a PNG."""
 NO_FAULT = "none"
-FAULT_WORDS = {"none": "no fault", "dead": "motor 2 dead"}
 
 
 class Look(NamedTuple):
@@ -49,6 +51,76 @@ LOOKS = {
 """Every kind of line by the name its data give it."""
 
 
+class Panel(NamedTuple):
+    """Lines over time.
+
+    Attributes:
+        title: gets a letter in front, unless it has one or stands alone.
+        lines: arrays over time, each with its look.
+        window: part of the time that is shown, s; all of it if left out.
+        marked: whether the fault is marked, where the data have one.
+        bottom, top: limits of the axis.
+        log: whether it is logarithmic.
+    """
+
+    title: str
+    lines: list[tuple[xarray.DataArray, Look]]
+    window: tuple[float, float] | None = None
+    marked: bool = True
+    bottom: float | None = None
+    top: float | None = None
+    log: bool = False
+
+
+def lines_of(data: xarray.Dataset, name: str, over: str, **place: object) -> list[tuple[xarray.DataArray, Look]]:
+    """A line for each entry of a dimension, which names its look, at a place in the others."""
+    return [(data[name].sel({over: who, **place}), LOOKS[str(who)]) for who in data[over].values]
+
+
+def pair(data: xarray.Dataset, name: str, **place: object) -> list[tuple[xarray.DataArray, Look]]:
+    """A truth and its estimate."""
+    return [(data[n].sel(place), LOOKS[who]) for n, who in ((name, "truth"), (f"{name}_estimate", "estimate"))]
+
+
+def over_time(
+    panels: Callable[[xarray.Dataset], Iterable[Panel]], height: float, columns: int = 3
+) -> Callable[[xarray.Dataset], Figure]:
+    """What draws panels of lines below each other: each so many inches high, so many names in a row of the legend."""
+    return partial(_draw_over_time, panels=panels, height=height, columns=columns)
+
+
+def _draw_over_time(
+    data: xarray.Dataset, panels: Callable[[xarray.Dataset], Iterable[Panel]], height: float, columns: int
+) -> Figure:
+    drawn = list(panels(data))
+    figure, axes = column(len(drawn), height)
+    for k, (ax, one) in enumerate(zip(axes, drawn, strict=True)):
+        for array, look in one.lines:
+            _line(ax, array if one.window is None else array.sel(time=slice(*one.window)), look, one.top)
+        alone = len(drawn) == 1 or one.title.startswith("(")
+        dress_panel(ax, one.title if alone else f"{letter(k)} {one.title}", unit_label(one.lines[0][0]))
+        if one.log:
+            ax.set_yscale("log")
+        ax.set_ylim(one.bottom, one.top)
+        if one.log:
+            log_axis(ax.yaxis)
+        last = k + 1 == len(drawn) or drawn[k + 1].window != one.window
+        time_axis(ax, data, labelled=last, marked=one.marked, window=one.window)
+    legend(figure, columns)
+    return figure
+
+
+def _line(ax: Axes, array: xarray.DataArray, look: Look, top: float | None) -> None:
+    """One array over time; a cross where it ends early, because its run diverged."""
+    there = array.dropna("time")
+    (drawn,) = ax.plot(there["time"].values, there.values, color=look.colour, linewidth=look.width, label=look.text)
+    if look.dashes:
+        drawn.set_dashes(look.dashes)
+    if there.sizes["time"] < array.sizes["time"]:
+        end = min(float(there[-1]), float("inf") if top is None else top)
+        ax.plot(there["time"][-1], end, "x", color=look.colour, ms=4, clip_on=False)
+
+
 def column(rows: int, height: float, columns: int = 1) -> tuple[Figure, list[Axes]]:
     """A figure as wide as a column, with panels row by row; ``height`` of one row in inches."""
     figure = new_figure(COLUMN_WIDTH, rows * height + 0.25)
@@ -59,22 +131,12 @@ def column(rows: int, height: float, columns: int = 1) -> tuple[Figure, list[Axe
     return figure, list(panels.ravel())
 
 
-def line(ax: Axes, array: xarray.DataArray, who: str, text: str | None = None) -> None:
-    """One array over time in the look of ``who``; it is named in the legend, unless ``text`` is empty."""
-    look = LOOKS[who]
-    name = look.text if text is None else text
-    (drawn,) = ax.plot(array["time"].values, array.values, color=look.colour, linewidth=look.width, label=name or None)
-    if look.dashes:
-        drawn.set_dashes(look.dashes)
-
-
-def panel(ax: Axes, title: str, ylabel: str, xlabel: str = "") -> None:
+def dress_panel(ax: Axes, title: str, ylabel: str) -> None:
     """Title at the left, labels, ticks and grid in the type of the page."""
     from matplotlib.ticker import MaxNLocator
 
     ax.set_title(title, fontsize=TYPE, loc="left", pad=3)
     ax.set_ylabel(ylabel, fontsize=TYPE)
-    ax.set_xlabel(xlabel, fontsize=TYPE)
     ax.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10], min_n_ticks=3))
     ax.tick_params(labelsize=TYPE - 0.5, length=2, pad=2)
     ax.grid(alpha=0.25, linewidth=0.4)
@@ -83,38 +145,39 @@ def panel(ax: Axes, title: str, ylabel: str, xlabel: str = "") -> None:
         ax.spines[side].set_linewidth(0.6)
 
 
-def time_panels(panels: Sequence[Axes], data: xarray.Dataset, *, marked: bool = True) -> None:
-    """Panels over the same time: one axis of time at the bottom; the fault, if any, is marked in all or in none."""
-    time = data["time"]
-    for ax in panels:
-        ax.set_xlim(float(time[0]), float(time[-1]))
-        if marked and "fault_time" in data.attrs:
-            mark_fault(ax, float(data.attrs["fault_time"]))
-        if ax is not panels[-1]:
-            ax.tick_params(labelbottom=False)
-    panels[-1].set_xlabel(f"{time.attrs['long_name']} [{time.attrs['units']}]", fontsize=TYPE)
+def time_axis(
+    ax: Axes,
+    data: xarray.Dataset,
+    *,
+    labelled: bool,
+    marked: bool = True,
+    window: tuple[float, float] | None = None,
+) -> None:
+    """The axis of time of one panel, and the fault, if there is one: the legend names it, where no curve can run over
+    the word."""
+    time = data["time"] if window is None else data["time"].sel(time=slice(*window))
+    ax.set_xlim(float(time[0]), float(time[-1]))
+    if marked and "fault_time" in data.attrs:
+        ax.axvline(data.attrs["fault_time"], color=QUIET, linewidth=0.7, linestyle="--", zorder=0.5, label="fault")
+    ax.tick_params(labelbottom=labelled)
+    if labelled:
+        ax.set_xlabel(f"{time.attrs['long_name']} [{time.attrs['units']}]", fontsize=TYPE)
 
 
-def mark_fault(ax: Axes, instant: float) -> None:
-    """The instant a motor fails; the legend names it, where no curve can run over the word."""
-    ax.axvline(instant, color=QUIET, linewidth=0.7, linestyle="--", zorder=0.5, label="fault")
+def colour_bar(figure: Figure, picture: ScalarMappable, ax: Axes | list[Axes], label: str) -> Colorbar:
+    """The scale of colours beside one panel, or beside a row of them."""
+    bar = figure.colorbar(picture, ax=ax, pad=0.02)
+    bar.set_label(label, fontsize=TYPE)
+    bar.ax.tick_params(labelsize=TYPE - 1, length=2, pad=2)
+    return bar
 
 
 def legend(figure: Figure, columns: int = 3) -> None:
     """The names of all lines, each once, above the whole figure, where no curve is."""
     named = {name: handle for ax in figure.axes for handle, name in zip(*ax.get_legend_handles_labels(), strict=True)}
     names = sorted(named, key="fault".__eq__)
-    figure.legend(
-        [named[name] for name in names],
-        names,
-        loc="outside upper center",
-        ncols=columns,
-        fontsize=TYPE,
-        frameon=False,
-        borderpad=0.1,
-        handlelength=2.2,
-        columnspacing=1.2,
-    )
+    look = {"fontsize": TYPE, "frameon": False, "borderpad": 0.1, "handlelength": 2.2, "columnspacing": 1.2}
+    figure.legend([named[name] for name in names], names, loc="outside upper center", ncols=columns, **look)
 
 
 def letter(number: int) -> str:
@@ -151,46 +214,11 @@ def log_axis(axis: Axis, ticks: int = 6) -> None:
         axis.set_major_formatter(LogFormatterSciNotation())
 
 
-def pair(ax: Axes, truth: xarray.DataArray, estimate: xarray.DataArray, title: str) -> None:
-    """A truth and its estimate in one panel."""
-    line(ax, truth, "truth")
-    line(ax, estimate, "estimate")
-    panel(ax, title, unit_label(truth))
-
-
-def pair_near(
-    ax: Axes, truth: xarray.DataArray, estimate: xarray.DataArray, window: tuple[float, float], title: str
-) -> None:
-    """A pair over a part of the time."""
-    part = slice(*window)
-    pair(ax, truth.sel(time=part), estimate.sel(time=part), title)
-    time_panels([ax], truth.sel(time=part).to_dataset(name="part"))
+def faults_first(data: xarray.Dataset) -> list[str]:
+    """Cases in the paper's order: (a) with a fault, (b) without one."""
+    return sorted(map(str, data["case"].values), key=NO_FAULT.__eq__)
 
 
 def case_title(case: str, data: xarray.Dataset, number: str = "") -> str:
     """(b) without a fault, (a) with one, as in the paper; numbered where there are several."""
     return "(b) no fault" if case == NO_FAULT else f"(a{number}) motor {data.attrs['fault_motor']} {case}"
-
-
-def mark_cases(panels: list[Axes], cases: list[str], data: xarray.Dataset) -> None:
-    """The axis of time, and the fault where there is one."""
-    time_panels(panels, data, marked=False)
-    for ax, case in zip(panels, cases, strict=True):
-        if case != NO_FAULT:
-            mark_fault(ax, float(data.attrs["fault_time"]))
-
-
-def draw_motors(data: xarray.Dataset, name: str) -> Figure:
-    """A channel over ``case``, ``motor``, ``arm`` and ``time``."""
-    values = data[name]
-    cases = [*(c for c in values["case"].values if c != NO_FAULT), NO_FAULT]
-    shown = [case for case in cases for _ in values["motor"].values]
-    motors = [*values["motor"].values] * len(cases)
-    figure, panels = column(len(shown), 0.95)
-    for ax, case, motor in zip(panels, shown, motors, strict=True):
-        for arm in values["arm"].values:
-            line(ax, values.sel(case=case, arm=arm, motor=motor), str(arm))
-        panel(ax, f"{case_title(str(case), data)}: motor {motor}", unit_label(values))
-    mark_cases(panels, shown, data)
-    legend(figure, 3)
-    return figure
