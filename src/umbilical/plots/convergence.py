@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from umbilical.plots.figure import COLOURS, QUIET, new_figure
+from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,25 +35,16 @@ def plot_convergence(curves: Sequence[Curve]) -> Figure:
 
 
 def _panel(ax: Axes, case: str, size: str, members: Sequence[Curve]) -> None:
+    """Errors, and the stated order through the finest of them."""
     for k, curve in enumerate(members):
-        what = curve.name.partition(": ")[2]
-        ax.loglog(curve.sizes, curve.errors, MARKERS[k % 6] + "-", color=COLOURS[k % 6], markersize=4,
-                  label=f"{what}: {curve.order:g}")  # fmt: skip
-        _slope(ax, curve)
-    ax.set_title(case, fontsize=8.5, loc="left")
-    ax.set_xlabel(size.removeprefix("the ").replace(", ", " [") + "]", fontsize=8)
-    ax.set_ylabel("error, SI units", fontsize=8)
+        sizes, name = np.array(curve.sizes), f"{curve.name.partition(': ')[2]}: {curve.order:g}"
+        ax.loglog(sizes, curve.errors, MARKERS[k % 6] + "-", color=COLOURS[k % 6], markersize=4, label=name)
+        ax.loglog(sizes, curve.errors[-1] * (sizes / sizes[-1]) ** curve.order, ":", color=QUIET, linewidth=0.9)
     ax.set_xticks(members[0].sizes, [f"{value:.3g}" for value in members[0].sizes])
     ax.set_xticks([], minor=True)
-    ax.tick_params(labelsize=7)
     ax.yaxis.set_minor_formatter("")
-    ax.grid(alpha=0.25, linewidth=0.6)
     low, high = np.log10(ax.get_ylim())
-    ax.set_ylim(10.0 ** np.floor(low), 10.0 ** np.ceil(high))  # whole decades: no axis with a single number on it
-    ax.legend(fontsize=7, frameon=False, title="stated order of", title_fontsize=7)
-
-
-def _slope(ax: Axes, curve: Curve) -> None:
-    """The stated order, through the finest error."""
-    sizes = np.array(curve.sizes)
-    ax.loglog(sizes, curve.errors[-1] * (sizes / sizes[-1]) ** curve.order, color=QUIET, linewidth=0.9, linestyle=":")
+    decades = (10.0 ** np.floor(low), 10.0 ** np.ceil(high))  # whole ones: no axis with a single number on it
+    legend = {"title": "stated order of", "title_fontsize": 8}
+    xlabel = f"{size.removeprefix('the ').replace(', ', ' [')}]"
+    dress(ax, case, legend, xlabel=xlabel, ylabel="error, SI units", ylim=decades)

@@ -37,17 +37,13 @@ def plot_operability(found: Operability, *, ax: Axes | None = None) -> Figure | 
     >>> umbilical.plot_operability(found).get_figure().savefig("limits.png")
     """
     given, ax = ax, ax or new_figure(8.0, 5.0).add_subplot()
-    worst = found.limit.min(axis=2)
-    if min(worst.shape) > 1:
-        _map(found, worst, ax)
-    else:
-        _lines(found, ax)
-    criteria = ", ".join(str(criterion) for criterion in found.criteria)
-    ax.set_title(f"{found.operation.name}: largest Hs that keeps {criteria}", fontsize=9.5, loc="left")
+    draw = _map if min(found.depth.size, found.period.size) > 1 else _lines
+    draw(found, ax, f"{found.operation.name}: largest Hs that keeps {', '.join(map(str, found.criteria))}")
     return given or as_figure(ax)
 
 
-def _map(found: Operability, worst: np.ndarray, ax: Axes) -> None:
+def _map(found: Operability, ax: Axes, title: str) -> None:
+    worst = found.limit.min(axis=2)
     style = {"cmap": "YlGnBu_r", "vmin": 0.0, "vmax": LEVELS[-1], "shading": "gouraud"}
     drawn = ax.pcolormesh(found.period, found.depth, worst, **style)
     lines = ax.contour(found.period, found.depth, worst, LEVELS, colors="black", linewidths=0.8)
@@ -57,13 +53,13 @@ def _map(found: Operability, worst: np.ndarray, ax: Axes) -> None:
         hatched = {"colors": "none", "hatches": ["///"], "levels": [0.5, 1.5]}
         ax.contourf(found.period, found.depth, found.steepest.astype(float), **hatched)
         ax.fill([], [], facecolor="none", edgecolor="black", hatch="///", label="no limit below the steepest sea")
-    ax.set(xlabel="peak period Tp [s]", xlim=(found.period.min(), found.period.max()))
-    ax.set(ylabel="cable paid out [m]", ylim=(found.depth.max(), found.depth.min()))
     as_figure(ax).colorbar(drawn, ax=ax, label="limiting Hs, worst heading [m]", extend="max")
-    ax.legend(fontsize=8, frameon=False, **BELOW)
+    ends: dict[str, Any] = {"xlim": np.sort(found.period)[[0, -1]], "ylim": np.sort(found.depth)[[-1, 0]]}
+    dress(ax, title, BELOW, xlabel="peak period Tp [s]", ylabel="cable paid out [m]", **ends)
+    ax.grid(visible=False)
 
 
-def _lines(found: Operability, ax: Axes) -> None:
+def _lines(found: Operability, ax: Axes, title: str) -> None:
     """One line for each heading, over whichever axis has more than one value."""
     deep = found.depth.size >= found.period.size
     x = found.depth if deep else found.period
@@ -75,7 +71,7 @@ def _lines(found: Operability, ax: Axes) -> None:
         )  # fmt: skip
     fixed = f"Tp {found.period[0]:g} s" if deep else f"{found.depth[0]:g} m"
     ax.set(xlabel="cable paid out [m]" if deep else "peak period Tp [s]", ylabel=f"limiting Hs at {fixed} [m]")
-    dress(ax, "", BELOW | {"title": "waves go towards (180: head sea)"}, ylim=(0.0, None))
+    dress(ax, title, BELOW | {"title": "waves go towards (180: head sea)"}, ylim=(0.0, None))
 
 
 def plot_lowering(found: Lowering) -> Figure:
@@ -116,5 +112,5 @@ def plot_lowering(found: Lowering) -> Figure:
     sea = found.spectrum
     waves = f"Hs {sea.significant_height:g} m, Tp {sea.peak_period:g} s, waves towards"
     title = f"{found.operation.name}: lowering in {waves} {np.degrees(found.heading):.0f} deg"
-    figure.suptitle(title, fontsize=10, x=0.01, ha="left")
+    figure.suptitle(title, fontsize=12)
     return figure

@@ -43,6 +43,5 @@ def plot_weather(found: Weather) -> Figure:
         right.step(hours, np.arange(1, hours.size + 1), color=COLOURS[0], where="post")
         right.axvline(found.needed / 3600.0, color=QUIET, linestyle="--", linewidth=1.0, label="needed")
         dress(right, xlabel="length of a window [h]", ylabel="windows that last as long", xscale="log")
-    figure.suptitle(f"{found.found.operation.name}: {found.share:.1%} of the sea states are workable", fontsize=10,
-                    x=0.01, ha="left")  # fmt: skip
+    figure.suptitle(f"{found.found.operation.name}: {found.share:.1%} of the sea states are workable", fontsize=12)
     return figure
