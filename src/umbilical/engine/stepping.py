@@ -10,6 +10,7 @@ from umbilical.compile import entry_kernel, glue, plain, rare_kernel
 from umbilical.control.contract import MotorDecision
 from umbilical.frames import Frame, integer, part, real, vector
 from umbilical.plant.cable import (
+    BLOCKS,
     PRESENT,
     RATES,
     CableConstants,
@@ -18,6 +19,7 @@ from umbilical.plant.cable import (
     at_moment,
     evaluate,
     look_at_ends,
+    look_up_slowness,
     make_blocks,
     make_cable,
     make_faces,
@@ -102,6 +104,7 @@ class PlantState(NamedTuple):
         now: one record.
         motors: one record per motor.
         blocks: slopes and velocities, and their last rates, shape (4, 5, 2 n), see ``plant/cable.py``.
+        rows: the same in memory, a row for each block, shape (4, 10 n).
         faces: fluxes where elements meet, see ``make_faces`` in ``plant/cable.py``.
         starts: displacement at the interfaces, m, shape (n + 1,).
         loads: loads along the cable at the present instant, N/m, shape (loads,).
@@ -112,6 +115,7 @@ class PlantState(NamedTuple):
     now: Instant
     motors: MotorState
     blocks: np.ndarray
+    rows: np.ndarray
     faces: np.ndarray
     starts: np.ndarray
     loads: np.ndarray
@@ -129,10 +133,12 @@ def make_plant(scenario: Scenario, *, booked: bool = True) -> Plant:
 def make_plant_state(scenario: Scenario) -> PlantState:
     """The plant at rest in its initial shape."""
     n, loads, elements = len(scenario.motors), len(scenario.environment.cable_load), scenario.grid.elements
+    blocks = make_blocks(initial_slopes(scenario))
     state = PlantState(
         now=Instant.many(1),
         motors=MotorState.many(n),
-        blocks=make_blocks(initial_slopes(scenario)),
+        blocks=blocks,
+        rows=blocks.reshape(BLOCKS, -1),
         faces=make_faces(elements),
         starts=zeros(elements + 1),
         loads=np.zeros(loads),
@@ -208,9 +214,9 @@ def derive(plant: Plant, state: PlantState, half: float, wet: bool) -> None:
     now, cable, x = state.now[0], plant.cable, state.blocks[PRESENT]
     outside, ends = now.outside, now.ends
     moment = at_moment(cable, outside)
+    look_at_ends(cable, x, ends, moment)
     add_up_displacement(x, state.starts, outside.vessel_displacement)
     ends.tip_displacement = state.starts[state.starts.size - 1]
-    look_at_ends(cable, x, ends, moment)
     book_at_ends(plant.forces, cable, ends, now.works, half, moment, outside, state.water, wet)
     if plant.booked:
         last, loads, water = now.last_tension, state.loads, state.water
@@ -230,16 +236,19 @@ def advance_motors(plant: Plant, state: PlantState, inputs: Inputs, i: int, deci
 @glue
 def march_cable(plant: Plant, state: PlantState, newest: int, wet: bool) -> None:
     """Cable and ROV by the weights of the newest rate, which is evaluated here, and the two before it."""
-    cable, blocks, now = plant.cable, state.blocks, state.now[0]
+    cable, rows, now = plant.cable, state.rows, state.now[0]
+    x, rate = state.blocks[PRESENT], state.blocks[RATES + newest]
     outside, ends, w = now.outside, now.ends, now.rate_weights
-    moment, rate = at_moment(cable, outside), blocks[RATES + newest]
-    evaluate(cable, blocks, state.faces, state.power.grid, ends, newest, moment)
-    along_cable(plant.forces, cable, blocks[PRESENT], rate, state.loads, state.water, moment, outside, wet)
+    moment = at_moment(cable, outside)
+    loss = moment.speed / moment.length + plant.forces.cable_decay
+    if now.known_rates == 0:
+        look_up_slowness(cable, state.faces, moment)
+    evaluate(cable, x, rows[PRESENT], rate, state.faces, state.power.grid, ends, loss, moment)
+    along_cable(plant.forces, cable, x, rate, state.loads, state.water, moment, outside, wet)
     pull = tension_at(0.0, moment.net, moment.hung) * ends.tip_slope
     ends.tip_rates[newest] = (on_payload(plant.forces, ends, state.water, wet) - pull) / cable.payload_inertia
     old, older = (newest + 2) % 3, (newest + 1) % 3
-    loss = moment.speed / moment.length + plant.forces.cable_decay
-    march(blocks[PRESENT], rate, blocks[RATES + old], blocks[RATES + older], loss, w)
+    march(rows[PRESENT], rows[RATES + newest], rows[RATES + old], rows[RATES + older], w)
     ends.tip_velocity += w[0] * ends.tip_rates[newest] + w[1] * ends.tip_rates[old] + w[2] * ends.tip_rates[older]
 
 
@@ -274,11 +283,9 @@ def push_payload(plant: Plant, now: Instant, dt: float) -> None:
 
 
 @glue
-def arrive(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: MotorDecision, wet: bool) -> None:
-    """The outside world at the end of step i, the motors' way there, and what all that pushes the ROV with."""
+def arrive(plant: Plant, state: PlantState, inputs: Inputs, i: int, wet: bool) -> None:
+    """The outside world at the end of step i, where motors are already, and what all that pushes the ROV with."""
     dt, now = inputs.dt[i], state.now[0]
-    if not plant.ideal:
-        advance_motors(plant, state, inputs, i, decision)
     take_inputs(plant, state, inputs, i, END, wet)
     if not plant.ideal:
         now.thrust = thrust(plant.motors, state.motors)
@@ -297,6 +304,8 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: M
     if abs(dt - now.last_step) > 1e-9 * dt:  # the weights are those of equal steps
         now.known_rates = 0
         now.last_step = dt
+    if not plant.ideal:  # first, since each of these few numbers waits for another: meanwhile begins the cable
+        advance_motors(plant, state, inputs, i, decision)
     before = now.ends.tip_displacement
     now.start.thrust, now.start.payload_force = now.thrust, now.outside.payload_force
     w = plant.explicit[now.known_rates]
@@ -306,7 +315,7 @@ def advance(plant: Plant, state: PlantState, inputs: Inputs, i: int, decision: M
         if turn == 0:
             if plant.booked:
                 add_power(state.work.grid, state.power.grid, dt)
-            arrive(plant, state, inputs, i, decision, wet)
+            arrive(plant, state, inputs, i, wet)
             if now.known_rates == 0:
                 look_at_ends(plant.cable, state.blocks[PRESENT], now.ends, at_moment(plant.cable, now.outside))
                 weigh_rates(now, 0.5 * dt, -0.5 * dt, 0.0)

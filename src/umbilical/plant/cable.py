@@ -50,7 +50,7 @@ LIFT = 1.0 / W0
 # Blocks of the cable (layout.py): slopes and velocities, their rates at the last three instants.
 PRESENT, RATES = 0, 1
 BLOCKS = 4
-FLOW, PULL = range(2)  # rows of the faces: the two fluxes where elements meet, both ends included
+FLOW, PULL, SLOWNESS = range(3)  # rows of the faces: two fluxes where elements meet, ends included; about 1/c inside
 Two = tuple[float, float]
 Three = tuple[float, float, float]
 Five = tuple[float, float, float, float, float]
@@ -180,30 +180,51 @@ def make_blocks(slopes: np.ndarray) -> np.ndarray:
 
 
 def make_faces(elements: int) -> np.ndarray:
-    """Room for what is kept where elements meet, shape (2, n + 1 or more, so that rows begin a line of the cache)."""
-    return zeros(2, 8 * (elements // 8 + 1))
+    """Room for what is kept where elements meet, shape (3, n + 1 or more, so that rows begin a line of the cache)."""
+    return zeros(3, 8 * (elements // 8 + 1))
 
 
 @row_kernel
-def meet(cable: CableConstants, x: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment) -> None:
+def look_up_slowness(cable: CableConstants, faces: np.ndarray, moment: Moment) -> None:
+    """1/c at the interfaces inside the cable, s/m, for :func:`meet` to start from."""
+    foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
+    rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
+    above, slowness = cable.above_faces, faces[SLOWNESS]
+    for f in range(above.size):
+        slowness[f] = 1.0 / sqrt(fma(rise, above[f], foot))
+
+
+@row_kernel
+def meet(
+    cable: CableConstants, x: np.ndarray, flat: np.ndarray, faces: np.ndarray, losses: np.ndarray, moment: Moment
+) -> None:
     """Flux at the interfaces inside the cable, from the two waves that run into each, and the power it takes, W.
 
     ``W* = (W- + W+)/2 + c (p+ - p-)/2`` and ``p* = (p- + p+)/2 + (W+ - W-)/(2 c)``, - on the vessel's side. With
     the jumps [W], [p] and Z = rho c the loss is ``Z/2 ([W]^2 + c^2 [p]^2) - v A Z [W] [p]``: never negative for
     |v| < c, and of the order of the error squared where the grid resolves the wave.
+
+    What weighs the jumps is free as long as it is positive, so c need not be exact: one step of Newton's method from
+    the 1/c of the step before, without root or division. Where T changes by a share s in a step, 3/8 s^2 is left; a
+    share above 1 (a cable that was all but slack) takes two steps or more.
     """
     n = x.shape[1] // 2
     scale, above, speed, slip = 1.0 / moment.length, cable.above_faces, moment.speed, moment.slip
     foot = tension(0.0, moment.net, moment.across) / cable.line_inertia
     rise = tension_gain(moment.length, moment.net, moment.across) / cable.line_inertia
-    before, w_before, after, w_after = x[4, :n], x[4, n:], x[0, :n], x[0, n:]
-    flow, pull = faces[FLOW], faces[PULL]
-    for f in range(1, n):
+    # One for every element, the vessel's end with what lies before in memory, so that no vector is left half full:
+    # :func:`meet_ends` puts there what belongs there.
+    after, w_after, before, w_before = x[0, :n], x[0, n:], flat[8 * n - 1 :], x[4, n - 1 :]
+    flow, pull, slownesses = faces[FLOW], faces[PULL], faces[SLOWNESS]
+    for f in range(n):
         transport, square = fma(speed, above[f], -slip), fma(rise, above[f], foot)
-        wave_speed = sqrt(square)
-        p, q, u, w = before[f - 1] * scale, after[f] * scale, w_before[f - 1], w_after[f]
+        last = slownesses[f]
+        slowness = last * max(fma(-0.5 * square * last, last, 1.5), 0.5)
+        slownesses[f] = slowness
+        wave_speed = square * slowness
+        p, q, u, w = before[f] * scale, after[f] * scale, w_before[f], w_after[f]
         step, w_step = q - p, w - u
-        slope, velocity = 0.5 * (p + q + w_step / wave_speed), 0.5 * fma(step, wave_speed, u + w)
+        slope, velocity = 0.5 * fma(w_step, slowness, p + q), 0.5 * fma(step, wave_speed, u + w)
         flow[f] = fma(-transport, slope, velocity)
         pull[f] = scale * fma(square, slope, -transport * velocity)
         lost = 0.5 * fma(w_step, w_step, square * step * step)
@@ -261,8 +282,10 @@ def differentiate(d: Derivative, f: Five, left: float, right: float) -> Five:
 
 
 @row_kernel
-def rates_inside(cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: np.ndarray, moment: Moment) -> None:
-    """out: d/dsigma of the brackets of the two conservation laws, at every node.
+def rates_inside(
+    cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: np.ndarray, loss: float, moment: Moment
+) -> None:
+    """out: d/dsigma of the brackets of the two conservation laws, at every node, less ``loss`` times the velocity.
 
     A loop for each, because the addresses of all rows in one are more than a processor has registers for.
     """
@@ -299,38 +322,40 @@ def rates_inside(cable: CableConstants, x: np.ndarray, faces: np.ndarray, out: n
             fma(q - q3, x3[e], (t3 - t) * w3[e]),
             fma(q - q4, x4[e], (t4 - t) * w4[e]),
         )
-        r0[e], r1[e], r2[e], r3[e], r4[e] = differentiate(d, pulls, left[e], right[e])
+        d0, d1, d2, d3, d4 = differentiate(d, pulls, left[e], right[e])
+        r0[e], r1[e] = fma(-loss, w0[e], d0), fma(-loss, w1[e], d1)
+        r2[e], r3[e], r4[e] = fma(-loss, w2[e], d2), fma(-loss, w3[e], d3), fma(-loss, w4[e], d4)
 
 
 @row_kernel
-def march(x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, loss: float, weights: np.ndarray) -> None:
-    """Take ``loss`` times the velocity off the new rate; then x += weights . (new, old, older)."""
-    n, w0, w1, w2 = x.shape[1] // 2, weights[0], weights[1], weights[2]
-    for j in range(5):
-        slope, slope0, slope1, slope2 = x[j, :n], new[j, :n], old[j, :n], older[j, :n]
-        velocity, velocity0, velocity1, velocity2 = x[j, n:], new[j, n:], old[j, n:], older[j, n:]
-        for e in range(n):
-            slope[e] += fma(w0, slope0[e], fma(w1, slope1[e], w2 * slope2[e]))
-            rate = fma(-loss, velocity[e], velocity0[e])
-            velocity0[e] = rate
-            velocity[e] += fma(w0, rate, fma(w1, velocity1[e], w2 * velocity2[e]))
+def march(x: np.ndarray, new: np.ndarray, old: np.ndarray, older: np.ndarray, weights: np.ndarray) -> None:
+    """x += weights . (new, old, older), all of them along a row."""
+    w0, w1, w2 = weights[0], weights[1], weights[2]
+    for k in range(x.size):
+        x[k] += fma(w0, new[k], fma(w1, old[k], w2 * older[k]))
 
 
 @glue
 def evaluate(
     cable: CableConstants,
-    blocks: np.ndarray,
+    x: np.ndarray,
+    flat: np.ndarray,
+    rate: np.ndarray,
     faces: np.ndarray,
     losses: np.ndarray,
     ends: Ends,
-    slot: int,
+    loss: float,
     moment: Moment,
 ) -> None:
-    """Rates of the free cable at the present instant into block ``slot`` (0 to 2); forces are added to them."""
-    x, rate = blocks[PRESENT], blocks[RATES + slot]
-    meet(cable, x, faces, losses, moment)
+    """Rates of the cable at the present instant, with linear damping; other forces are added to them.
+
+    Args:
+        x, flat: the cable's block, and the same as one row.
+        loss: share of its velocity that it loses, 1/s.
+    """
+    meet(cable, x, flat, faces, losses, moment)
     meet_ends(cable, x, faces, losses, ends, moment)
-    rates_inside(cable, x, faces, rate, moment)
+    rates_inside(cable, x, faces, rate, loss, moment)
 
 
 @kernel
