@@ -125,6 +125,7 @@ import json, sys
 import numpy as np
 import umbilical
 from umbilical.plant.checks.motion import tension_above_zero, wave_speed
+from umbilical.plant.checks.moving import MovingCable
 from umbilical.plant.checks.steps import chosen_step, grid_near_the_payload, wave_step, waves_that_leave
 from umbilical.certificate.lyapunov import cable_function, cable_function_rates
 from umbilical.certificate.records import Weights
@@ -162,20 +163,19 @@ def winch_of(law):
 def numbers(values):
     return np.asarray(values, dtype=float).ravel().tolist()
 
-common = {"environment": s.environment, "cable": s.cable, "payload": s.payload}
+moving = MovingCable.of(s)._replace(duration=1.0)
 answers = {
     "plant": numbers(run["displacement"][-1]),
     "controller": numbers(run["thrust_command"]),
     "initial shape": numbers(initial_slopes(s)),
     "energy": numbers(run["energy"]),
     "work of the tension": numbers(run["work_tension"]),
-    "step limit": [wave_step(s.cable, s.payload, s.environment, s.winch, s.duration, s.grid)],
-    "check: slack": found(tension_above_zero, winch=winch_of(hard), duration=50.0, **common),
-    "check: slower than the waves": found(wave_speed, winch=winch_of(fast), duration=1.0, **common),
-    "check: waves that leave": found(waves_that_leave, winch=s.winch, duration=1.0, control=s.control, grid=s.grid,
-                                     **common | {"cable": heavy.cable}),
-    "check: grid near the ROV": found(grid_near_the_payload, duration=1.0, control=s.control, winch=s.winch,
-                                      grid=s.grid, **common),
+    "step limit": [wave_step(MovingCable.of(s), s.grid)],
+    "check: slack": found(tension_above_zero, moving=moving._replace(winch=winch_of(hard), duration=50.0)),
+    "check: slower than the waves": found(wave_speed, moving=moving._replace(winch=winch_of(fast))),
+    "check: waves that leave": found(waves_that_leave, control=s.control, grid=s.grid,
+                                     moving=moving._replace(cable=heavy.cable)),
+    "check: grid near the ROV": found(grid_near_the_payload, control=s.control, grid=s.grid, moving=moving),
     "linearisation": numbers(linearise_plant(still).a.data),
     "margins": numbers([(j := margins_at(still, 400.0)).margins.gain_high.size, j.margins.phase.size]),
     "step of the design's grids": [on_grid(s, 500.0, 2000).grid.step],

@@ -12,6 +12,7 @@ from pydantic import TypeAdapter
 
 from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.library.checks import checks_for
+from umbilical.plant.checks.moving import MovingCable
 from umbilical.scenario import Scenario
 from umbilical.scenario.document import freeze
 from umbilical.scenario.findings import Finding, Notice
@@ -62,6 +63,9 @@ def admit_data(data: Mapping[str, Any], origin: str, problems: Iterable[Problem]
 
 def _findings(sections: Mapping[str, Any]) -> list[Finding]:
     """What the checks find whose sections are all there."""
+    if sections.keys() >= set(MovingCable._fields):
+        moving = MovingCable(*(sections[name] for name in MovingCable._fields))
+        sections = {**sections, "moving": moving}
     able = [
         (check, needs)
         for check in checks_for(sections.get("model", "string"))

@@ -10,13 +10,13 @@ import pytest
 import umbilical
 from umbilical.errors import ScenarioError
 from umbilical.library import admit
+from umbilical.plant.checks.moving import MovingCable
 from umbilical.plant.checks.statics import Steady, statics, steady_slope
 from umbilical.scenario import Scenario
 
 
 def of(scenario: Scenario) -> Steady:
-    s = scenario
-    return steady_slope(s.environment, s.cable, s.payload, s.winch, s.duration, s.control)
+    return steady_slope(MovingCable.of(scenario), scenario.control)
 
 
 def constant(value: float) -> list[dict[str, Any]]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.timeline import tables_of_the_winch
+from umbilical.plant.checks.timeline import numbered, refuses, tables_of_the_winch
 from umbilical.plant.orbital import moves_the_water
 from umbilical.plant.seaway import directions_of, spectrum_of, waves_of
 from umbilical.plant.top import top_at
@@ -34,13 +34,12 @@ def systems(environment: Environment) -> Iterator[Finding]:
     """Each system has one period, and is no steeper than seas are."""
     if (sea := environment.sea) is None:
         return
-    for number, system in enumerate(sea.systems, start=1):
-        key = f"environment.sea.systems.{number}"
+    for key, system in numbered("environment.sea.systems", sea.systems):
         given = [name for name in _PERIODS if getattr(system, name) is not None]
         if len(given) != 1:
-            assumed_of_table = " and ".join(given) or "no period"
             reason = "each of them sets the spectrum's scale in time"
-            yield Problem(key, assumed_of_table, f"exactly one of {', '.join(_PERIODS)}", reason, "leave one")
+            bound = f"exactly one of {', '.join(_PERIODS)}"
+            yield Problem(key, " and ".join(given) or "no period", bound, reason, "leave one")
             continue
         peak = spectrum_of(system).peak_period
         if not 2.0 <= peak <= 30.0:
@@ -78,11 +77,8 @@ def repetition(environment: Environment, duration: float) -> Iterator[Finding]:
     longest = max(components.repeat_period for _, components in waves)
     if duration > longest:
         need = int(np.ceil(max(system.components for system in sea.systems) * duration / longest))
-        yield Notice(
-            "environment.sea.systems",
-            f"the waves repeat themselves after about {longest:.0f} s, and the run takes {duration:g} s; some {need} "
-            "components do not",
-        )
+        words = f"the waves repeat themselves after about {longest:.0f} s, and the run takes {duration:g} s; some "
+        yield Notice("environment.sea.systems", f"{words}{need} components do not")
 
 
 def orbital_motion(
@@ -96,7 +92,7 @@ def orbital_motion(
     if environment.water is None:
         yield Problem(key, "given", "together with environment.water", "drag and moved mass need water",
                       "[environment.water], [cable.water], [payload.water]")  # fmt: skip
-    elif sea.systems and not any(True for _ in tables_of_the_winch(winch, duration)):
+    elif sea.systems and not refuses(tables_of_the_winch(winch, duration)):
         peak = max(float(wave_number(2.0 * np.pi / spectrum_of(system).peak_period, environment.gravity))
                    for system in sea.systems)  # fmt: skip
         element = float(top_at(winch, np.linspace(0.0, duration, 101)).length.max()) / elements
@@ -108,9 +104,8 @@ def orbital_motion(
 
 def regular_waves(environment: Environment) -> Iterator[Finding]:
     """Waves given as numbers: equally many of each, and none too fast to be a wave."""
-    for number, term in enumerate(environment.vessel_motion, start=1):
+    for key, term in numbered("environment.vessel_motion", environment.vessel_motion):
         if isinstance(term, Waves):
-            key = f"environment.vessel_motion.{number}"
             counts = {len(term.frequencies), len(term.amplitudes), len(term.phases)}
             if len(counts) > 1:
                 yield Problem(f"{key}.amplitudes", f"{sorted(counts)} entries", "equally many", "a wave has all three",
@@ -123,4 +118,4 @@ def regular_waves(environment: Environment) -> Iterator[Finding]:
 
 def sound(environment: Environment) -> bool:
     """Whether all wave systems are."""
-    return not any(isinstance(finding, Problem) for finding in systems(environment))
+    return not refuses(systems(environment))

@@ -57,15 +57,11 @@ def check_memory(scenario: Scenario) -> None:
     """
     need, there = memory_of(scenario), machine.memory()
     if need > there:
-        longest = scenario.output.interval * need / there
-        problem = Problem(
-            "output.interval",
-            amount(scenario.output.interval, "s"),
-            f"{machine.in_words(there)} of memory on this machine, not {machine.in_words(need)}",
-            "every stored sample is in memory until the result is written",
-            f"an interval above {longest:.3g} s, or fewer {'rope' if scenario.model == 'rope' else 'grid'}.elements",
-        )
-        raise ScenarioError([problem], scenario.name)
+        interval, section = scenario.output.interval, "rope" if scenario.model == "rope" else "grid"
+        bound = f"{machine.in_words(there)} of memory on this machine, not {machine.in_words(need)}"
+        fix = f"an interval above {interval * need / there:.3g} s, or fewer {section}.elements"
+        reason = "every stored sample is in memory until the result is written"
+        raise ScenarioError([Problem("output.interval", amount(interval, "s"), bound, reason, fix)], scenario.name)
 
 
 def stored_instants(environment: Environment, motors: Sequence[Motor]) -> Iterator[Finding]:
@@ -73,10 +69,6 @@ def stored_instants(environment: Environment, motors: Sequence[Motor]) -> Iterat
     for key, signal in (*of_environment(environment), *of_motors(motors)):
         count = len(signals.jumps(signal))
         if count > MOST_JUMPS:
-            yield Problem(
-                key,
-                f"{count} jumps and kinks",
-                f"at most {MOST_JUMPS:g}",
-                "a step of the plant ends at each",
-                'fewer terms, or tables with interpolation = "smooth"',
-            )
+            yield Problem(key, f"{count} jumps and kinks", f"at most {MOST_JUMPS:g}",
+                          "a step of the plant ends at each",
+                          'fewer terms, or tables with interpolation = "smooth"')  # fmt: skip

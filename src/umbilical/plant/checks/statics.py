@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant import signals
-from umbilical.plant.checks.motion import sampled_top, sunk
+from umbilical.plant.checks.moving import MovingCable, sampled_top
 from umbilical.plant.checks.timeline import shapes, signals_of_the_environment
 from umbilical.plant.current import speeds_at
 from umbilical.plant.exogenous import current_at, profile
@@ -18,9 +18,7 @@ from umbilical.plant.top import top_at
 from umbilical.relations.tension import (
     axial_drag_of,
     hanging_of,
-    largest_tension,
     sinking,
-    smallest_tension,
     stretched,
     tension,
 )
@@ -28,9 +26,7 @@ from umbilical.relations.water import in_water, line_inertia
 from umbilical.scenario.control import Control
 from umbilical.scenario.environment import Environment, InitialShape
 from umbilical.scenario.findings import Finding, Notice
-from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.scenario import Scenario
-from umbilical.scenario.winch import Winch
 
 _STEEPEST = 0.3
 """There the offset of a cable in a current is 3 % too large, at 0.5 it is 10 %, at 0.9 27 %."""
@@ -45,20 +41,13 @@ class Steady(NamedTuple):
     reached: bool
 
 
-def static_slope(
-    environment: Environment,
-    cable: Cable,
-    payload: Payload,
-    winch: Winch,
-    duration: float,
-    control: Control,
-    initial: InitialShape,
-) -> Iterator[Finding]:
+def static_slope(moving: MovingCable, control: Control, initial: InitialShape) -> Iterator[Finding]:
     """The loads that last bend the cable less than a model of small angles allows."""
+    environment, duration = moving.environment, moving.duration
     broken = (*signals_of_the_environment(environment, duration), *shapes(environment, initial))
-    if broken or not sampled_top(winch, environment, duration) or not _profile_is_sound(environment):
+    if broken or not sampled_top(moving.winch, environment, duration) or not _profile_is_sound(environment):
         return
-    found = steady_slope(environment, cable, payload, winch, duration, control)
+    found = steady_slope(moving, control)
     if not found.slope > _STEEPEST:
         return
     where = f"a static slope of {found.slope:.3g} at x/l = {found.sigma:.2g}, under the loads that last"
@@ -66,20 +55,15 @@ def static_slope(
     if found.reached or initial.shape == "equilibrium":  # where it starts
         eased = f"loads below {share:.3g} times these" if environment.cable_load or environment.payload_force else ""
         slower = f"a current below {np.sqrt(share):.3g} times this one" if flows(environment) else ""
-        yield Problem(
-            "environment",
-            where,
-            f"at most {_STEEPEST:g}",
-            "the cable comes to rest there, or swings beyond; small angles set it 3 % too far at a slope of 0.3, 27 % "
-            "at 0.9, and at 1 a run of the string ends",
-            f'model = "rope", which has no small angles; or {" and ".join(filter(None, (eased, slower)))}, or a '
-            "heavier payload: the slope is load over tension",
-        )
+        weaker = " and ".join(filter(None, (eased, slower)))
+        yield Problem("environment", where, f"at most {_STEEPEST:g}",
+                      "the cable comes to rest there, or swings beyond; small angles set it 3 % too far at a slope of "
+                      "0.3, 27 % at 0.9, and at 1 a run of the string ends",
+                      f'model = "rope", which has no small angles; or {weaker}, or a heavier payload: the slope is '
+                      "load over tension")  # fmt: skip
     else:
-        yield Notice(
-            "environment",
-            f"{where}; small angles end at {_STEEPEST:g}, but the run is too short for the cable to come to rest there",
-        )
+        words = f"{where}; small angles end at {_STEEPEST:g}, but the run is too short for the cable to come to rest "
+        yield Notice("environment", words + "there")
 
 
 class Statics(NamedTuple):
@@ -108,21 +92,14 @@ def statics(scenario: Scenario) -> Statics | None:
     >>> [round(number, 3) for number in statics(umbilical.load("work-class-1000m-current"))]
     [0.025, 0.0, 35000.0, 75456.44]
     """
-    s = scenario
-    sampled = sampled_top(s.winch, s.environment, s.duration, s.cable, s.payload)
-    if s.model == "rope" or not sampled:
+    moving = MovingCable.of(scenario)
+    if scenario.model == "rope" or not (sampled := moving.sampled()):
         return None
-    found = steady_slope(s.environment, s.cable, s.payload, s.winch, s.duration, s.control)
-    motion = sampled[1]
-    state = motion.length, motion.net_gravity(s.environment.gravity), sunk(motion, s.cable, s.payload, s.environment)
-    return Statics(
-        found.slope, found.sigma, float(np.min(smallest_tension(*state))), float(np.max(largest_tension(*state)))
-    )
+    found, (least, largest) = steady_slope(moving, scenario.control), moving.tension_range(sampled[1])
+    return Statics(found.slope, found.sigma, float(np.min(least)), float(np.max(largest)))
 
 
-def steady_slope(
-    environment: Environment, cable: Cable, payload: Payload, winch: Winch, duration: float, control: Control
-) -> Steady:
+def steady_slope(moving: MovingCable, control: Control) -> Steady:
     """Steepest static slope under loads that last for half a period of the slowest wave, two crossings of the cable.
 
     Statics: ``T y_x = F + integral of f from x to l``, F the force that the thrusters leave on the ROV: all of it
@@ -130,6 +107,7 @@ def steady_slope(
     what it takes to hold the ROV, and less as it creeps at ``-beta y_x`` where no station holds it. The thrusters are
     taken to give what the law asks for.
     """
+    winch, environment, duration, cable, payload = moving
     loaded = environment.cable_load or flows(environment)
     if not loaded and (not environment.payload_force or control.law.boundary_gains):
         return Steady(0.0, 0.0, True)
@@ -151,9 +129,8 @@ def steady_slope(
     passing = water[:, -1]
     pushed = (found.body_linear + found.body_quadratic * np.abs(passing)) * passing
     carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
-    slopes = (
-        _left_at_the_payload(environment, control, t, pull[:, -1], carried, alone, pushed)[:, None] + below
-    ) / pull
+    left = _left_at_the_payload(environment, control, t, pull[:, -1], carried, alone, pushed)
+    slopes = (left[:, None] + below) / pull
     crossing = float(np.max(length[:, 0] * _sum(np.sqrt(line_inertia(cable, payload, environment) / pull), sigma)))
     wanted = int(np.ceil(2.0 * crossing / duration * (_INSTANTS - 1))) + 1
     window = min(wanted, _INSTANTS)
@@ -184,14 +161,9 @@ def _loads(environment: Environment, t: np.ndarray, sigma: np.ndarray) -> np.nda
 
 
 def _left_at_the_payload(
-    environment: Environment,
-    control: Control,
-    t: np.ndarray,
-    pull: np.ndarray,
-    carried: np.ndarray,
-    alone: np.ndarray,
-    pushed: np.ndarray,
-) -> np.ndarray:
+    environment: Environment, control: Control, t: np.ndarray, pull: np.ndarray, carried: np.ndarray,
+    alone: np.ndarray, pushed: np.ndarray,
+) -> np.ndarray:  # fmt: skip
     """Force on the ROV that the cable has to bear, N, shape (instants,).
 
     With it the ROV is at ``carried + alone F``, m; ``pull`` is the tension there, N, ``pushed`` its drag at rest, N.

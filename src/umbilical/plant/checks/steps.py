@@ -8,8 +8,8 @@ from math import inf, pi, sqrt
 import numpy as np
 
 from umbilical.errors import Problem
-from umbilical.plant.checks.motion import sampled_top, sunk, wave_terms
-from umbilical.plant.checks.timeline import MOST_STEPS
+from umbilical.plant.checks.moving import MovingCable, wave_terms
+from umbilical.plant.checks.timeline import MOST_STEPS, numbered
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.plant.rope.assemble import rope_step
@@ -23,7 +23,6 @@ from umbilical.scenario.environment import Environment
 from umbilical.scenario.findings import Finding, Notice, amount
 from umbilical.scenario.hardware import Cable, Motor, Payload
 from umbilical.scenario.scenario import Grid, Scenario
-from umbilical.scenario.winch import Winch
 
 _MARGIN = 0.9
 """Share of the multistep method's limits that a step may take: those are for uniform cables."""
@@ -54,44 +53,34 @@ def chosen_step(scenario: Scenario) -> float:
     >>> chosen_step(umbilical.load("paper")), chosen_step(umbilical.load("paper", {"grid.elements": 400}))
     (0.001, 0.0003333333333333333)
     """
-    if scenario.model == "rope":
-        return _whole_part(scenario.control.period, min(scenario.grid.step, rope_step(scenario)))
-    step_for_waves = wave_step(
-        scenario.cable, scenario.payload, scenario.environment, scenario.winch, scenario.duration, scenario.grid
-    )
-    return _whole_part(scenario.control.period, min(scenario.grid.step, step_for_waves))
+    rope = scenario.model == "rope"
+    longest = rope_step(scenario) if rope else wave_step(MovingCable.of(scenario), scenario.grid)
+    return _whole_part(scenario.control.period, min(scenario.grid.step, longest))
 
 
 def _whole_part(period: float, largest: float) -> float:
     return period / max(count_up(period, largest), 1)
 
 
-def wave_step(
-    cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
-) -> float:
+def wave_step(moving: MovingCable, grid: Grid) -> float:
     """Longest stable step for the fastest wave in the shortest element throughout the run, s."""
-    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
-        return float("inf")  # the winch has its own problem
-    _, motion = sampled
-    found = wave_terms(motion, cable, payload, environment)
+    if not (sampled := moving.sampled()):
+        return inf  # the winch has its own problem
+    found = wave_terms(moving, sampled[1])
     speed = found.fastest + np.maximum(np.abs(found.at_vessel), np.abs(found.at_payload))
-    crossing = float(np.min(np.maximum(motion.length, 0.0) / speed))
-    return _MARGIN * courant_limit() * crossing / grid.elements if crossing > 0.0 else float("inf")
+    crossing = float(np.min(np.maximum(sampled[1].length, 0.0) / speed))
+    return _MARGIN * courant_limit() * crossing / grid.elements if crossing > 0.0 else inf
 
 
-def step_for_waves(
-    cable: Cable, payload: Payload, environment: Environment, winch: Winch, duration: float, grid: Grid
-) -> Iterator[Finding]:
+def step_for_waves(moving: MovingCable, grid: Grid) -> Iterator[Finding]:
     """The steps that the waves demand are not absurdly many."""
-    step = wave_step(cable, payload, environment, winch, duration, grid)
-    if step * MOST_STEPS < duration:
-        yield Problem(
-            "grid.elements",
-            str(grid.elements),
-            f"{MOST_STEPS:g} steps of the plant, not {duration / step:.3g}",
-            f"waves cross an element of this cable in so short a time that a step may last {step:.3g} s at most",
-            "fewer grid.elements, or check cable.line_density, payload.mass and environment.gravity",
-        )
+    step = wave_step(moving, grid)
+    if step * MOST_STEPS < moving.duration:
+        why = f"waves cross an element of this cable in so short a time that a step may last {step:.3g} s at most"
+        yield Problem("grid.elements", str(grid.elements),
+                      f"{MOST_STEPS:g} steps of the plant, not {moving.duration / step:.3g}", why,
+                      "fewer grid.elements, or check cable.line_density, payload.mass and "
+                      "environment.gravity")  # fmt: skip
 
 
 def step_for_damping(
@@ -102,39 +91,25 @@ def step_for_damping(
     for found in decays(cable, payload, environment):
         limit = _MARGIN * DECAY_LIMIT * found.inertia / step
         if found.coefficient >= limit:
-            yield Problem(
-                found.key,
-                amount(found.coefficient, found.unit),
-                f"below {limit:.6g} {found.unit} at a step of {step:g} s",
-                "within one step it would take more than half of the speed",
-                "a smaller grid.step",
-            )
+            bound = f"below {limit:.6g} {found.unit} at a step of {step:g} s"
+            reason = "within one step it would take more than half of the speed"
+            yield Problem(found.key, amount(found.coefficient, found.unit), bound, reason, "a smaller grid.step")
 
 
-def waves_that_leave(
-    cable: Cable,
-    payload: Payload,
-    environment: Environment,
-    winch: Winch,
-    duration: float,
-    control: Control,
-    grid: Grid,
-) -> Iterator[Finding]:
+def waves_that_leave(moving: MovingCable, control: Control, grid: Grid) -> Iterator[Finding]:
     """The ROV loses momentum to the waves it sends up the cable, at the rate ``sqrt(rho T)/m``."""
-    if not (sampled := sampled_top(winch, environment, duration, cable, payload)):
+    if not (sampled := moving.sampled()):
         return
-    net, hung = sampled[1].net_gravity(environment.gravity), sunk(sampled[1], cable, payload, environment)
-    pull = max(float(np.max(tension(0.0, net, hung))), 0.0)
-    step, impedance = plant_step(control, grid), sqrt(line_inertia(cable, payload, environment) * pull)
+    net, hung = sampled[1].net_gravity(moving.environment.gravity), moving.sunk(sampled[1])
+    pull, inertia = max(float(np.max(tension(0.0, net, hung))), 0.0), payload_inertia(moving.payload)
+    step = plant_step(control, grid)
+    impedance = sqrt(line_inertia(moving.cable, moving.payload, moving.environment) * pull)
     limit = impedance * step / (_MARGIN * DECAY_LIMIT)
-    if payload_inertia(payload) < limit:
-        yield Problem(
-            "payload.mass",
-            amount(payload.mass, "kg"),
-            f"at least {limit:.6g} kg at a step of {step:g} s",
-            f"the cable resists with {impedance:.4g} N s/m and would take more than half of its speed within a step",
-            "a smaller grid.step",
-        )
+    if inertia < limit:
+        yield Problem("payload.mass", amount(moving.payload.mass, "kg"),
+                      f"at least {limit:.6g} kg at a step of {step:g} s",
+                      f"the cable resists with {impedance:.4g} N s/m and would take more than half of its speed within "
+                      "a step", "a smaller grid.step")  # fmt: skip
 
 
 def motors(motors: Sequence[Motor], ideal_thruster: bool, control: Control, grid: Grid) -> Iterator[Finding]:
@@ -142,17 +117,13 @@ def motors(motors: Sequence[Motor], ideal_thruster: bool, control: Control, grid
     if ideal_thruster:
         return
     step = plant_step(control, grid)
-    for number, motor in enumerate(motors, start=1):
+    for key, motor in numbered("motors", motors):
         speed = reachable_speed(motor)
         pole = max(fastest_pole(motor, speed), fastest_pole(motor, 0.0))
         if not pole * step <= _RUNGE_KUTTA:
-            yield Problem(
-                "grid.step",
-                amount(step, "s"),
-                f"at most {_RUNGE_KUTTA / pole:.4g} s",
-                f"motor {number} has a pole at {pole:.6g} 1/s at {speed:.6g} rad/s; the scheme is explicit",
-                f"a smaller grid.step, or check motors.{number}.inductance and motors.{number}.inertia",
-            )
+            why = f"motor {key[7:]} has a pole at {pole:.6g} 1/s at {speed:.6g} rad/s; the scheme is explicit"
+            fix = f"a smaller grid.step, or check {key}.inductance and {key}.inertia"
+            yield Problem("grid.step", amount(step, "s"), f"at most {_RUNGE_KUTTA / pole:.4g} s", why, fix)
 
 
 def reachable_speed(motor: Motor) -> float:
@@ -164,31 +135,19 @@ def reachable_speed(motor: Motor) -> float:
 def fastest_pole(motor: Motor, speed: float) -> float:
     """Largest modulus, 1/s, of the poles of eq. (15) linearised at a speed, rad/s; infinite if they overflow."""
     matrix, _ = motor_rates(motor, speed)
-    return float(np.abs(np.linalg.eigvals(matrix)).max()) if np.isfinite(matrix).all() else float("inf")
+    return float(np.abs(np.linalg.eigvals(matrix)).max()) if np.isfinite(matrix).all() else inf
 
 
 _FELT_FROM = 0.2
 """Share of the wave speed at the ROV from which on a slope gain lets the motors chatter at waves no grid carries."""
 
 
-def grid_near_the_payload(
-    duration: float,
-    control: Control,
-    cable: Cable,
-    payload: Payload,
-    environment: Environment,
-    winch: Winch,
-    grid: Grid,
-) -> Iterator[Finding]:
+def grid_near_the_payload(moving: MovingCable, control: Control, grid: Grid) -> Iterator[Finding]:
     """Waves too short for the grid are damped where a real cable sends them back from the vessel."""
-    pull = tension(0.0, net_gravity(environment.gravity), hanging_of(cable, payload, environment))
-    speed = sqrt(pull / line_inertia(cable, payload, environment))
-    gains = control.law.boundary_gains
+    sections = moving.cable, moving.payload, moving.environment
+    pull = tension(0.0, net_gravity(moving.environment.gravity), hanging_of(*sections))
+    speed, gains = sqrt(pull / line_inertia(*sections)), control.law.boundary_gains
     if gains and gains[1] >= _FELT_FROM * speed:
-        longest = float(top_at(winch, [0.0, duration]).length.max())
-        band = 2.0 * pi * speed * grid.elements / longest
-        yield Notice(
-            "control.law.slope_gain",
-            f"at {gains[1]:g} m/s the loop feels waves above {band:.0f} rad/s, which this grid damps "
-            "and a cable would send back: judge stability by `umbilical margins`",
-        )
+        band = 2.0 * pi * speed * grid.elements / float(top_at(moving.winch, [0.0, moving.duration]).length.max())
+        words = f"at {gains[1]:g} m/s the loop feels waves above {band:.0f} rad/s, which this grid damps and a cable "
+        yield Notice("control.law.slope_gain", words + "would send back: judge stability by `umbilical margins`")

@@ -34,23 +34,16 @@ class TableOf(NamedTuple):
 def problems_of_a_table(table: TableOf, points: Sequence[float], count: int) -> Iterator[Finding]:
     """Order, length, and whether the table covers (or exactly spans) its span."""
     if count != len(points):
-        yield Problem(
-            f"{table.key}.{table.values}",
-            f"{count} entries",
-            f"{len(points)} entries, one for each of {table.key}.{table.across}",
-            "each point has one value",
-            "make both lists equally long",
-        )
+        yield Problem(f"{table.key}.{table.values}", f"{count} entries",
+                      f"{len(points)} entries, one for each of {table.key}.{table.across}",
+                      "each point has one value", "make both lists equally long")  # fmt: skip
     for number, (a, b) in enumerate(pairwise(points), start=1):
         if b < a or (b == a and not (table.jumps and (number < 2 or points[number - 2] < a))):
             before, here = apart(a, b)
-            yield Problem(
-                f"{table.key}.{table.across}.{number + 1}",
-                here,
-                f"above the one before it, {before}",
-                "the curve runs through increasing points",
-                "sort the table; no point twice" + (", but for a jump: twice, no more" if table.jumps else ""),
-            )
+            twice = ", but for a jump: twice, no more" if table.jumps else ""
+            yield Problem(f"{table.key}.{table.across}.{number + 1}", here, f"above the one before it, {before}",
+                          "the curve runs through increasing points",
+                          f"sort the table; no point twice{twice}")  # fmt: skip
             return
     yield from _coverage(table, points)
 
@@ -61,13 +54,9 @@ def _coverage(table: TableOf, points: Sequence[float]) -> Iterator[Finding]:
     if known and not (table.exact and max(abs(begin - first), abs(end - last)) > ROUND_OFF * last):
         return
     lowest, highest, asked_low, asked_high = apart(begin, end, first, last)
-    yield Problem(
-        f"{table.key}.{table.across}",
-        f"{lowest} to {highest}",
-        f"{'exactly' if table.exact else 'at least'} {asked_low} to {asked_high}",
-        "nothing is known outside the table",
-        _extension(table, points),
-    )
+    yield Problem(f"{table.key}.{table.across}", f"{lowest} to {highest}",
+                  f"{'exactly' if table.exact else 'at least'} {asked_low} to {asked_high}",
+                  "nothing is known outside the table", _extension(table, points))  # fmt: skip
 
 
 def _extension(table: TableOf, points: Sequence[float]) -> str:
@@ -112,22 +101,17 @@ def smoothness(table: TableOf, points: Sequence[float], values: Sequence[float],
     """A sound table through which the smooth curve stays near the data."""
     if any(True for _ in problems_of_a_table(table, points, len(values))):
         return
-    found = overshoot(points, values, table.span)
+    found, key = overshoot(points, values, table.span), f"{table.key}.{table.values}"
     at = f"{found.point:.6g} s" if table.across == "times" else f"x/l = {found.point:.6g}"
     what = f"the smooth curve reaches {found.value:.4g} {unit} at {at}"
     spread = f"data from {min(values):.4g} to {max(values):.4g} {unit}"
     if found.share > MOST_OVERSHOOT:
-        yield Problem(
-            f"{table.key}.{table.values}",
-            f"{what}, {100.0 * found.share:.3g} % of the range beyond it",
-            f"{spread}, left by {100.0 * MOST_OVERSHOOT:g} % of their range at most",
-            "a cubic spline swings far between points that are too close, or too few, for what happens there",
-            _remedy(table, points, values, found.point),
-        )
+        yield Problem(key, f"{what}, {100.0 * found.share:.3g} % of the range beyond it",
+                      f"{spread}, left by {100.0 * MOST_OVERSHOOT:g} % of their range at most",
+                      "a cubic spline swings far between points that are too close, or too few, for what happens there",
+                      _remedy(table, points, values, found.point))  # fmt: skip
     elif found.share > _TOLD_OVERSHOOT:
-        yield Notice(
-            f"{table.key}.{table.values}", f"{what}, beyond the {spread} by {100.0 * found.share:.2g} % of their range"
-        )
+        yield Notice(key, f"{what}, beyond the {spread} by {100.0 * found.share:.2g} % of their range")
 
 
 def _remedy(table: TableOf, points: Sequence[float], values: Sequence[float], worst: float) -> str:

@@ -21,13 +21,9 @@ def cable_in_water(cable: Cable, environment: Environment) -> Iterator[Finding]:
     if wet is not None and wet > dry * (1.0 + _ROUNDING):
         of_weight = wet / _in_air(1.0, environment.gravity)
         hint = f"{wet:g} N/m of weight are {of_weight:.6g} kg/m" if of_weight <= dry else "check both densities"
-        yield Problem(
-            "cable.wet_line_density",
-            amount(wet, "kg/m"),
-            f"at most cable.line_density, {dry:g} kg/m",
-            "water bears weight, it adds none; the key is the weight of a metre in water over g, in kg/m",
-            hint,
-        )
+        reason = "water bears weight, it adds none; the key is the weight of a metre in water over g, in kg/m"
+        bound = f"at most cable.line_density, {dry:g} kg/m"
+        yield Problem("cable.wet_line_density", amount(wet, "kg/m"), bound, reason, hint)
 
 
 def payload_in_water(payload: Payload, environment: Environment) -> Iterator[Finding]:
@@ -38,11 +34,8 @@ def payload_in_water(payload: Payload, environment: Environment) -> Iterator[Fin
     yield from _below_the_weight_in_air("payload.wet_weight", wet, payload.mass, gravity)
     if wet <= payload.mass:
         share = wet / _in_air(payload.mass, gravity)
-        yield Notice(
-            "payload.wet_weight",
-            f"{wet:g} N is {share:.2g} of the ROV's weight in air and leaves the cable nearly slack; if {wet:g} kg "
-            f"was meant, that is {_in_air(wet, gravity):.6g} N",
-        )
+        words = f"{wet:g} N is {share:.2g} of the ROV's weight in air and leaves the cable nearly slack; if {wet:g} kg "
+        yield Notice("payload.wet_weight", f"{words}was meant, that is {_in_air(wet, gravity):.6g} N")
 
 
 def believed_in_water(control: Control, payload: Payload, environment: Environment) -> Iterator[Finding]:
@@ -57,13 +50,10 @@ def believed_in_water(control: Control, payload: Payload, environment: Environme
 def _below_the_weight_in_air(key: str, wet: float, mass: float, gravity: float) -> Iterator[Finding]:
     dry = _in_air(mass, gravity)
     if wet > dry * (1.0 + _ROUNDING):
-        yield Problem(
-            key,
-            amount(wet, "N"),
-            f"at most the weight in air, {mass:g} kg * {gravity:g} m/s2 = {dry:g} N",
-            "water bears weight, it adds none",
-            "the weight in water in newton, or leave it out for the weight in air",
-        )
+        yield Problem(key, amount(wet, "N"),
+                      f"at most the weight in air, {mass:g} kg * {gravity:g} m/s2 = {dry:g} N",
+                      "water bears weight, it adds none",
+                      "the weight in water in newton, or leave it out for the weight in air")  # fmt: skip
 
 
 def _in_air(mass: float, gravity: float) -> float:
