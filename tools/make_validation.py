@@ -12,11 +12,11 @@ import sys
 from pathlib import Path
 
 from umbilical.cli.progress import bar
+from umbilical.faces.verification import shown_numbers
 from umbilical.plots import plot_convergence, save_figure
 from umbilical.tables import markdown
 from umbilical.verify import Verification, verify_all, water_response
 from umbilical.verify.cases import Check, Result, worst_ratio
-from umbilical.verify.summary import shown_numbers
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 TEXT = Path(__file__).with_suffix(".md")

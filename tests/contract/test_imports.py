@@ -12,9 +12,7 @@ FILES = {
     ".".join(path.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__"): path
     for path in (SOURCE / "umbilical").rglob("*.py")
 }
-LATER = {
-    "verify.verification": {"plots"},
-}
+LATER: dict[str, set[str]] = {}
 """What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would
 be a circle at import."""
 CIRCLES: set[frozenset[str]] = set()

@@ -18,7 +18,7 @@ from umbilical.control.observers.disturbance import (
     start_disturbance,
 )
 from umbilical.scenario.control import DisturbanceObserver
-from umbilical.verify.observers import PERIOD, estimated_derivative
+from umbilical.verify.control import PERIOD, estimated_derivative
 
 pytestmark = pytest.mark.nojit
 

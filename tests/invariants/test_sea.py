@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from tests.support.verdicts import assert_holds, each
-from umbilical.verify import sea, sea_pairs
+from umbilical.verify import sea, water_pairs
 from umbilical.verify.cases import Case
 
 
-@each((*sea.CASES, *sea_pairs.CASES))
+@each((*sea.CASES, *water_pairs.SEA_CASES))
 def test_case(case: Case) -> None:
     assert_holds(case)

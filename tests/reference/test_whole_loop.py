@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from tests.support.verdicts import assert_holds, each
-from umbilical.verify import cascade, crosscheck
+from umbilical.verify import whole_loop
 from umbilical.verify.cases import Case
 
 
-@each((*crosscheck.CASES, *cascade.CASES))
+@each(whole_loop.CASES)
 def test_case(case: Case) -> None:
     assert_holds(case)
 
@@ -18,5 +18,5 @@ def test_case(case: Case) -> None:
 @pytest.mark.slow
 def test_the_reference_does_not_depend_on_its_degree() -> None:
     """To a fifth of what the case asks of the engine, the displacement to a hundredth."""
-    for found, finer, share in zip(cascade.reference(), cascade.reference(32), (5e-6, 1e-6, 4e-6), strict=True):
+    for found, finer, share in zip(whole_loop.reference(), whole_loop.reference(32), (5e-6, 1e-6, 4e-6), strict=True):
         assert np.abs(found - finer).max() < share * np.abs(found).max()

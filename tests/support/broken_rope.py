@@ -12,7 +12,7 @@ from umbilical.plant.rope import assemble, model, outside
 from umbilical.plant.rope.records import RopeConstants
 from umbilical.plant.seaway import Sheave
 from umbilical.scenario.environment import Environment
-from umbilical.verify import rope_manufactured
+from umbilical.verify import manufactured
 
 Break = Callable[[pytest.MonkeyPatch], None]
 
@@ -27,7 +27,7 @@ def another_rope(change: Callable[[RopeConstants], dict[str, Any]]) -> Break:
             rope = right(*arguments, **named)
             return rope._replace(**change(rope))
 
-        for user in (model, assemble, rope_manufactured):
+        for user in (model, assemble, manufactured):
             patch.setattr(user, "make_rope", wrong)
 
     return apply

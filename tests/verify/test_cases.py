@@ -10,6 +10,7 @@ import pytest
 
 from umbilical.analysis.convergence import Curve
 from umbilical.errors import ScenarioError
+from umbilical.faces.verification import data, markdown_page, one_digit
 from umbilical.verify.cases import (
     UNFINISHED,
     Case,
@@ -17,13 +18,11 @@ from umbilical.verify.cases import (
     Check,
     Result,
     close,
-    each_close,
-    history_close,
     order_reached,
+    same_history,
     small,
     worst_ratio,
 )
-from umbilical.verify.summary import data, markdown_page, one_digit
 from umbilical.verify.verification import Verification
 
 NAN = float("nan")
@@ -33,16 +32,16 @@ def test_an_error_within_the_tolerance_holds_and_nan_never_does() -> None:
     assert close("q", 1.001, 1.0, 2e-3, "").holds
     assert not close("q", 1.003, 1.0, 2e-3, "").holds
     assert not close("q", NAN, 1.0, 1e9, "").holds
-    assert not history_close("q", [0.0, NAN], [1.0, 1.0], 1e9, "").holds
+    assert not same_history("q", [0.0, NAN], [1.0, 1.0], 1e9, "").holds
     assert small("q", -1e-3, 1e-3, "").holds
 
 
 def test_of_several_numbers_the_worst_is_shown() -> None:
-    check = each_close("q", [1.0, 2.2, 3.0], [1.0, 2.0, 3.1], 0.2, "")
+    check = close("q", [1.0, 2.2, 3.0], [1.0, 2.0, 3.1], 0.2, "")
     assert (check.ours, check.expected, check.error) == (2.2, 2.0, pytest.approx(0.1))
-    field = history_close("q", [[0.0, 1.0], [5.5, 2.0]], [[0.0, 1.0], [5.0, 10.0]], 0.2, "")
+    field = same_history("q", [[0.0, 1.0], [5.5, 2.0]], [[0.0, 1.0], [5.0, 10.0]], 0.2, "")
     assert (field.ours, field.expected, field.error) == (2.0, 10.0, 0.8)
-    pole = each_close("s", np.array([1.0 + 2.0j]), np.array([1.0 + 3.0j]), 1.0, "")
+    pole = close("s", np.array([1.0 + 2.0j]), np.array([1.0 + 3.0j]), 1.0, "")
     assert (pole.ours, pole.expected) == (2.0, 3.0)
 
 
@@ -64,7 +63,7 @@ def test_where_nothing_is_tolerated_only_an_error_counts() -> None:
 
 
 def test_histories_that_agree_to_the_last_bit_are_shown_at_their_peak() -> None:
-    assert history_close("q", [0.0, -2.0, 1.0], [0.0, -2.0, 1.0], 0.0, "").expected == -2.0
+    assert same_history("q", [0.0, -2.0, 1.0], [0.0, -2.0, 1.0], 0.0, "").expected == -2.0
 
 
 def _raising(error: Exception) -> Case:
@@ -87,7 +86,7 @@ def test_a_case_that_cannot_be_carried_through_fails(error: Exception) -> None:
 
 def _verification(*checks: Check, skipped: str = "") -> Verification:
     case = Case("a case", "a|b", "a source", lambda: checks)
-    return Verification({"Family": (Result(case, checks, skipped, 0.0),)})
+    return Verification({"Family": (Result(case, checks, skipped),)})
 
 
 def test_the_page_shows_what_fails_and_what_was_skipped() -> None:

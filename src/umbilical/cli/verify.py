@@ -50,9 +50,9 @@ def _write(found: Verification, targets: list[Path], force: bool) -> dict[str, s
     """The files by role."""
     if not targets:
         return {}
+    from umbilical.faces.verification import data, markdown_page
     from umbilical.files import write
     from umbilical.plots import plot_convergence, save_figure
-    from umbilical.verify.summary import data, markdown_page
 
     report, numbers, picture = targets
     write(report, markdown_page(found, picture.name).encode(), force=force)

@@ -6,11 +6,9 @@ A check holds when its error is not above its tolerance; NaN is above everything
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from importlib.util import find_spec
-from time import perf_counter
-from typing import Any
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -22,10 +20,10 @@ UNFINISHED = "the whole case"
 """The quantity of a check that stands for those which a case did not come to."""
 ORDER_SLACK = 0.1
 """How far below the stated order the finest pair of grids may be."""
+Checks: TypeAlias = Iterator["Check"]
 
 
-@dataclass(frozen=True)
-class Check:
+class Check(NamedTuple):
     """One number of ours against one of a reference.
 
     Attributes:
@@ -57,8 +55,7 @@ class Check:
         return "holds" if self.holds else "FAILS"
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(NamedTuple):
     """One comparison with a reference.
 
     Attributes:
@@ -79,27 +76,23 @@ class Case:
 
     def judge(self) -> Result:
         """All checks of the case, or why there are none."""
-        begun = perf_counter()
         if self.needs and find_spec(self.needs) is None:
-            return Result(self, (), f"needs {self.needs}", 0.0)
+            return Result(self, (), f"needs {self.needs}")
         checks: list[Check] = []
         try:
             checks.extend(self.find())
         except Exception as error:  # any error fails this case only
-            nan = float("nan")
             what = error if isinstance(error, CaseError | UmbilicalError) else repr(error)
-            checks.append(Check(UNFINISHED, nan, nan, nan, 0.0, f"could not be carried through: {what}"))
-        return Result(self, tuple(checks), "", perf_counter() - begun)
+            checks.append(Check(UNFINISHED, np.nan, np.nan, np.nan, 0.0, f"could not be carried through: {what}"))
+        return Result(self, tuple(checks))
 
 
-@dataclass(frozen=True)
-class Result:
+class Result(NamedTuple):
     """A case with its checks; ``skipped`` says why there are none."""
 
     case: Case
     checks: tuple[Check, ...]
-    skipped: str
-    seconds: float
+    skipped: str = ""
 
     @property
     def holds(self) -> bool:
@@ -107,52 +100,52 @@ class Result:
         return all(check.holds for check in self.checks)
 
 
-def each(
-    name: str, reference: str, source: str, find: Callable[[Any], Iterable[Check]],
-    settings: Mapping[str, Any] | Sequence[Any], **options: Any,
-) -> tuple[Case, ...]:  # fmt: skip
-    """A case for each of some settings, which are named in a mapping, or values that ``name`` shows; the rest alike."""
-    named = settings if isinstance(settings, Mapping) else {value: value for value in settings}
-    return tuple(
-        Case(name.format(shown), reference, source, partial(find, value), **options) for shown, value in named.items()
-    )
+class Cases(list[Case]):
+    """The cases of a family, in the order in which they stand in its file."""
+
+    def add(self, name: str, reference: str, source: str, settings: Any = None, **options: Any) -> Callable[[Any], Any]:
+        """Decorate what computes the checks of a case.
+
+        With ``settings`` it is a case for each of them: named in a mapping, or values that ``name`` shows.
+        """
+
+        def of(find: Callable[..., Checks]) -> Callable[..., Checks]:
+            if settings is None:
+                self.append(Case(name, reference, source, find, **options))
+            else:
+                pairs = settings.items() if isinstance(settings, Mapping) else zip(settings, settings, strict=True)
+                self.extend(Case(name.format(shown), reference, source, partial(find, value), **options)
+                            for shown, value in pairs)  # fmt: skip
+            return find
+
+        return of
 
 
-def close(quantity: str, ours: float, expected: float, tolerance: float, why: str) -> Check:
-    """Two numbers; the error is relative to the expected one."""
-    return Check(quantity, float(ours), float(expected), abs(ours - expected) / abs(expected), tolerance, why)
+def close(quantity: str, ours: Any, expected: Any, tolerance: float, why: str) -> Check:
+    """Numbers, each relative to its own; of several the worst is shown."""
+    found, exact = np.ravel(ours), np.ravel(expected)
+    relative = np.abs(found - exact) / np.abs(exact)
+    return _shown(quantity, found, exact, relative, int(np.argmax(relative)), tolerance, why)
 
 
-def small(quantity: str, value: float, tolerance: float, why: str) -> Check:
+def small(quantity: str, value: Any, tolerance: float, why: str) -> Check:
     """A number that should vanish."""
     return Check(quantity, float(value), 0.0, abs(float(value)), tolerance, why)
 
 
-def each_close(quantity: str, ours: Any, expected: Any, tolerance: float, why: str) -> Check:
-    """Several numbers, each relative to its own; the worst is shown."""
-    found, exact = np.ravel(ours), np.ravel(expected)
-    relative = np.abs(found - exact) / np.abs(exact)
-    worst = int(np.argmax(relative))
-    return Check(quantity, _shown(found[worst]), _shown(exact[worst]), float(relative[worst]), tolerance, why)
-
-
-def history_close(quantity: str, ours: Any, expected: Any, tolerance: float, why: str) -> Check:
+def same_history(quantity: str, ours: Any, expected: Any, tolerance: float, why: str) -> Check:
     """Histories or fields; the largest distance over the peak of the expected one, shown where it is largest."""
     found, exact = np.ravel(ours), np.ravel(expected)
     off = np.abs(found - exact)
     worst = int(np.argmax(off if off.any() else np.abs(exact)))  # nowhere apart: shown at the peak
-    return Check(
-        quantity, _shown(found[worst]), _shown(exact[worst]), float(off[worst] / np.abs(exact).max()), tolerance, why
-    )
+    return _shown(quantity, found, exact, off / np.abs(exact).max(), worst, tolerance, why)
 
 
-def channels_close(
-    ours: Any, theirs: Any, names: Mapping[str, str], *limit: Any, factor: float = 1.0
-) -> Iterator[Check]:
+def same_channels(ours: Any, theirs: Any, names: Mapping[str, str], *limit: Any, factor: float = 1.0) -> Checks:
     """Channels of two runs, by name with their units; ``factor`` is of the expected ones."""
     for name, unit in names.items():
         shown = f"{name.replace('_', ' ')}, {unit}"
-        yield history_close(shown, ours[name].values, factor * theirs[name].values, *limit)
+        yield same_history(shown, ours[name].values, factor * theirs[name].values, *limit)
 
 
 def at_least(quantity: str, value: float, least: float, why: str) -> Check:
@@ -160,12 +153,20 @@ def at_least(quantity: str, value: float, least: float, why: str) -> Check:
     return Check(quantity, value, least, least / value, 1.0, why)
 
 
-def order_reached(curve: Curve, why: str) -> Check:
+def order_reached(curve: Curve, why: str = "stated") -> Check:
     """The order of the finest pair of grids; the error is what it lacks to the stated one."""
     found = float(orders(curve.errors, curve.sizes)[-1])
     return Check(
         f"order of {curve.name} in {curve.size}", found, curve.order, curve.order - found, ORDER_SLACK, why, curve
     )
+
+
+def orders_reached(
+    names: Mapping[str, float], size: str, sizes: Sequence[float], rows: Any, why: str = "stated"
+) -> Checks:
+    """Orders by name; ``rows`` of shape (sizes, names or more) are the errors."""
+    for (name, order), errors in zip(names.items(), np.transpose(rows).tolist(), strict=False):
+        yield order_reached(Curve(name, size, tuple(sizes), tuple(errors), order), why)
 
 
 def worst_ratio(checks: Sequence[Check]) -> float:
@@ -180,6 +181,7 @@ def _ratio(check: Check) -> float:
     return float(ratio) if np.isfinite(ratio) else np.inf
 
 
-def _shown(value: complex) -> float:
-    """A pole is shown by its imaginary part, its frequency."""
-    return float(np.imag(value) if np.iscomplexobj(value) else np.real(value))
+def _shown(quantity: str, found: Any, exact: Any, errors: Any, worst: int, *limit: Any) -> Check:
+    """One of many; a pole is shown by its imaginary part, its frequency."""
+    ours, expected = (float(v[worst].imag if np.iscomplexobj(v) else v[worst]) for v in (found, exact))
+    return Check(quantity, ours, expected, float(errors[worst]), *limit)

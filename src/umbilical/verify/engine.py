@@ -17,7 +17,7 @@ from umbilical.plant.checks.steps import chosen_step
 from umbilical.plant.layout import to_nodal
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
-from umbilical.verify.cases import CaseError
+from umbilical.verify.references import CaseError
 
 UNDAMPED = {"cable.damping": 0.0, "payload.damping": 0.0}
 STEADY_TENSION = {"cable.wet_line_density": 0.0}
@@ -43,7 +43,19 @@ def constant(value: float) -> dict[str, Any]:
     return {"kind": "constant", "value": value}
 
 
-def completed(scenario: Scenario) -> Run:
+def from_rest(size: float, frequency: float) -> list[dict[str, Any]]:
+    """The terms of ``size (1 - cos w t)``."""
+    return [constant(size), sine(-size, frequency, np.pi / 2.0)]
+
+
+def gentle(size: float, frequency: float) -> list[dict[str, Any]]:
+    """The terms of ``size (1 - cos w t)^2``, which starts so gently that the wave it sends has no front."""
+    quarter = np.pi / 2.0
+    terms = [constant(1.5 * size), sine(-2.0 * size, frequency, quarter), sine(0.5 * size, 2.0 * frequency, quarter)]
+    return terms if size else []
+
+
+def finished(scenario: Scenario) -> Run:
     """A run that came to its end.
 
     Raises:
@@ -53,11 +65,6 @@ def completed(scenario: Scenario) -> Run:
     if run.status is not Status.COMPLETED:
         raise CaseError(f"{run.status.name} at t = {run.end_time:g} s: {run.reason}")
     return run
-
-
-def poles(scenario: Scenario, count: int) -> np.ndarray:
-    """The ``count`` slowest poles above the real axis, 1/s; see :func:`modes`."""
-    return modes(scenario, count)[0]
 
 
 def modes(scenario: Scenario, count: int) -> tuple[np.ndarray, np.ndarray]:

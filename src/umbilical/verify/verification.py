@@ -5,49 +5,46 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import import_module
+from pkgutil import resolve_name
 from typing import Any, ClassVar
 
 from umbilical.analysis.convergence import Curve
 from umbilical.result import ResultFaces
 from umbilical.verify.cases import Case, Result
 
-_FILES = {
-    "Hanging cable": ("hanging_string", "static_deflection"),
-    "Damping and reflection": ("tip_damper",),
-    "Moving end": ("moving_end",),
-    "Vessel in motion": ("moordyn",),
-    "Manufactured solutions": ("manufactured",),
-    "Power balance": ("power_balance",),
-    "Motor": ("motor",),
-    "Control laws and observers": ("laws", "observers", "adaptation"),
-    "Instants": ("instants",),
-    "Whole loop": ("crosscheck", "cascade"),
-    "Invariance": ("invariance",),
-    "Sea and heave": ("sea", "sea_pairs"),
-    "String in water": ("water", "water_pairs", "water_response"),
-    "Rope": ("rope", "rope_manufactured", "rope_waves", "rope_invariance", "rope_pairs"),
+_PLACES = {
+    "Hanging cable": ("hanging_string:CASES",),
+    "Damping and reflection": ("hanging_string:DAMPING",),
+    "Moving end": ("moving_end:CASES",),
+    "Vessel in motion": ("moordyn:CASES",),
+    "Manufactured solutions": ("manufactured:CASES",),
+    "Power balance": ("power_balance:CASES",),
+    "Motor": ("motor:CASES",),
+    "Control laws and observers": ("control:CASES",),
+    "Instants": ("instants:CASES",),
+    "Whole loop": ("whole_loop:CASES",),
+    "Invariance": ("invariance:CASES",),
+    "Sea and heave": ("sea:CASES", "water_pairs:SEA_CASES"),
+    "String in water": ("manufactured:AT_SEA_CASES", "water:CASES", "water_pairs:CASES", "water_response:CASES"),
+    "Rope": ("rope:CASES", "manufactured:ROPE_CASES", "rope_waves:CASES", "rope_pairs:CASES"),
 }
 FAMILIES: dict[str, tuple[Case, ...]] = {
-    family: tuple(case for name in names for case in import_module(f"umbilical.verify.{name}").CASES)
-    for family, names in _FILES.items()
+    family: tuple(case for place in places for case in resolve_name(f"umbilical.verify.{place}"))
+    for family, places in _PLACES.items()
 }
 """Every case, in the order of the table."""
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True)
 class Verification(ResultFaces):
     """What a verification found: a result for each case, by family."""
 
-    shown_by: ClassVar[str] = "umbilical.verify.summary"
+    shown_by: ClassVar[str] = "umbilical.faces.verification"
     families: dict[str, tuple[Result, ...]]
 
     def plot(self, **options: Any) -> Any:
         """Draw the convergence of every family whose order is judged."""
-        from umbilical.plots import plot_convergence
-
-        return plot_convergence(self.curves, **options)
+        return import_module("umbilical.plots").plot_convergence(self.curves, **options)
 
     @property
     def results(self) -> tuple[Result, ...]:
@@ -64,28 +61,24 @@ class Verification(ResultFaces):
         """Errors over grids, named after their cases."""
         return tuple(
             check.curve._replace(name=f"{result.case.name}: {check.curve.name}")
-            for result in self.results
-            for check in result.checks
-            if check.curve
-        )
+            for result in self.results for check in result.checks if check.curve
+        )  # fmt: skip
 
     @property
     def headline(self) -> str:
         """How many checks there were and how many hold."""
-        checks = [check for result in self.results for check in result.checks]
-        failed, skipped = sum(not c.holds for c in checks), sum(bool(r.skipped) for r in self.results)
-        made = f"{_counted(len(checks), 'check')} in {_counted(len(self.results) - skipped, 'case')}"
-        parts = [f"{made}: {len(checks) - failed} hold"]
-        parts += [f"{failed} FAIL"] if failed else []
-        parts += [f"{_counted(skipped, 'case')} skipped"] if skipped else []
-        return ", ".join(parts)
+        holding = [check.holds for result in self.results for check in result.checks]
+        failed, skipped = holding.count(False), sum(bool(result.skipped) for result in self.results)
+        made = f"{_counted(len(holding), 'check')} in {_counted(len(self.results) - skipped, 'case')}"
+        more = [f", {failed} FAIL"] * bool(failed) + [f", {_counted(skipped, 'case')} skipped"] * bool(skipped)
+        return f"{made}: {holding.count(True)} hold" + "".join(more)
 
 
 def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def verify_all(quick: bool = False, *, progress: Progress = lambda share: None) -> Verification:
+def verify_all(quick: bool = False, *, progress: Callable[[float], None] = lambda share: None) -> Verification:
     """Judge every case.
 
     Args:
@@ -99,10 +92,9 @@ def verify_all(quick: bool = False, *, progress: Progress = lambda share: None) 
     >>> CASES[0].judge().holds
     True
     """
-
-    chosen = {family: [case for case in cases if case.quick or not quick] for family, cases in FAMILIES.items()}
-    total, found = sum(map(len, chosen.values())), {}
-    for done, (family, case) in enumerate(((f, case) for f, cases in chosen.items() for case in cases), start=1):
+    chosen = [(name, case) for name, cases in FAMILIES.items() for case in cases if case.quick or not quick]
+    found: dict[str, tuple[Result, ...]] = {}
+    for done, (family, case) in enumerate(chosen, start=1):
         found[family] = (*found.get(family, ()), case.judge())
-        progress(done / total)
+        progress(done / len(chosen))
     return Verification(found)

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 
 class CaseError(Exception):
@@ -26,3 +27,11 @@ def integrated(rates: Callable[..., Any], start: Any, times: np.ndarray, **optio
     if not (found.success and np.isfinite(found.y).all()):
         raise CaseError(f"the reference failed: {found.message}")
     return found.y
+
+
+def roots(function: Callable[[float], float], grid: np.ndarray, count: int) -> np.ndarray:
+    """The first roots of a function that changes its sign between points of a grid, to round-off."""
+    values = np.array([function(x) for x in grid])
+    places = np.flatnonzero(values[:-1] * values[1:] < 0.0)[:count]
+    found: list[Any] = [brentq(function, grid[k], grid[k + 1], xtol=1e-15) for k in places]
+    return np.array(found)

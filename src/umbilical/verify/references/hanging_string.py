@@ -1,9 +1,9 @@
 """The hanging string with a mass at its free end, in closed form.
 
 With s up from the ROV, ``T = W + q s`` (in air ``W = m g``, ``q = rho g``) and ``z(s) = 2 w sqrt(rho T)/q``, eq. (6)
-without damping has the solutions ``J0(z)`` and ``Y0(z)``. The ROV's ``T Y_s = -m w^2 Y`` is
-``Y_z = -m w/sqrt(rho W) Y``; in air the factor is z/2 and the two terms make a J2: "Frequencies of a hanging chain
-supporting an end mass".
+without damping has the solutions ``J0(z)`` and ``Y0(z)``. The ROV's ``T Y_s = (-m w^2 + i c w) Y`` is
+``Y_z = -(m w - i c)/sqrt(rho W) Y``; in air and undamped the factor is z/2 and the two terms make a J2: "Frequencies of
+a hanging chain supporting an end mass".
 """
 
 from __future__ import annotations
@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
-from scipy.optimize import brentq
 from scipy.special import jv, yv
+
+from umbilical.verify.references import roots
 
 
 class HangingString(NamedTuple):
@@ -37,94 +38,63 @@ class HangingString(NamedTuple):
         """q, N/m."""
         return self.line_weight_left * self.line_density * self.gravity
 
-    @property
-    def inertia(self) -> float:
-        """m/sqrt(rho W), s."""
-        return self.mass / float(np.sqrt(self.line_density * self.weight))
-
     def argument(self, above: Any) -> Any:
         """z/w at a height above the ROV, s."""
         return 2.0 * np.sqrt(self.line_density * (self.weight + self.line_weight * above)) / self.line_weight
 
+    def miss(self, w: Any, damping: float = 0.0, first: Any = jv, second: Any = yv) -> Any:
+        """``Y_z + (m w - i c)/sqrt(rho W) Y`` at the ROV of the shape that is 0 at the vessel, by Bessel functions."""
+        z0, z1 = (float(self.argument(above)) * w for above in (0.0, self.length))
+        shape, bent = (first(n, z0) * second(0, z1) - second(n, z0) * first(0, z1) for n in (0, 1))
+        load = self.mass * w - 1j * damping if damping else self.mass * w
+        return load / float(np.sqrt(self.line_density * self.weight)) * shape - bent
+
+
+def _exact(string: HangingString, near: Any, damping: float = 0.0, digits: int = 30) -> Any:
+    """The root next to one, by mpmath."""
+    with mpmath.workdps(digits):
+        return mpmath.findroot(lambda w: w * string.miss(w, damping, mpmath.besselj, mpmath.bessely), near)
+
 
 def frequencies(string: HangingString, count: int) -> np.ndarray:
-    """Roots w, rad/s, of ``Y_z + m w/sqrt(rho W) Y = 0`` at the ROV, Y 0 at the vessel, to 15 digits."""
-    foot, top = float(string.argument(0.0)), float(string.argument(string.length))
-
-    def equation(w: Any) -> Any:
-        z0, z1 = foot * w, top * w
-        first, second = (string.inertia * w * f(0, z0) - f(1, z0) for f in (mpmath.besselj, mpmath.bessely))
-        return first * mpmath.bessely(0, z1) - second * mpmath.besselj(0, z1)
-
-    with mpmath.workdps(30):
-        return np.array([float(mpmath.findroot(equation, root)) for root in _scanned(string, count)])
+    """Roots w, rad/s, to 15 digits."""
+    return np.array([float(_exact(string, root)) for root in _scanned(string, count).tolist()])
 
 
-def mode_shape(string: HangingString, frequency: float, above: np.ndarray) -> np.ndarray:
-    """Y at heights above the ROV, 1 at the ROV: ``J0(z) Y0(z1) - Y0(z) J0(z1)``."""
-    top = frequency * string.argument(string.length)
-
-    def shape(z: Any) -> Any:
-        return jv(0, z) * yv(0, top) - yv(0, z) * jv(0, top)
-
-    return shape(frequency * string.argument(above)) / shape(frequency * string.argument(0.0))
-
-
-def _scanned(string: HangingString, count: int) -> list[float]:
+def _scanned(string: HangingString, count: int) -> np.ndarray:
     """The roots in double precision, none left out: their distance tends to ``pi/(top - foot)``."""
-    foot, top = float(string.argument(0.0)), float(string.argument(string.length))
+    distance = np.pi / (string.argument(string.length) - string.argument(0.0))
+    grid = np.concatenate([np.geomspace(1e-4, 0.02, 200), np.arange(0.03, count + 2.0, 0.02)]) * distance
+    return roots(string.miss, grid, count)
 
-    def equation(w: Any) -> Any:
-        first, second = (string.inertia * w * f(0, foot * w) - f(1, foot * w) for f in (jv, yv))
-        return first * yv(0, top * w) - second * jv(0, top * w)
 
-    grid = np.concatenate([np.geomspace(1e-4, 0.02, 200), np.arange(0.03, count + 2.0, 0.02)]) * np.pi / (top - foot)
-    values = equation(grid)
-    brackets = np.flatnonzero(values[:-1] * values[1:] < 0.0)[:count]
-    found: list[Any] = [brentq(equation, grid[k], grid[k + 1], xtol=1e-15) for k in brackets]
-    return [float(root) for root in found]
+def mode_shape(string: HangingString, frequency: float, above: Any) -> np.ndarray:
+    """Y at heights above the ROV, 1 at the ROV: ``J0(z) Y0(z1) - Y0(z) J0(z1)``."""
+    z = frequency * string.argument(np.append(above, [0.0, string.length]))
+    shape = jv(0, z) * yv(0, z[-1]) - yv(0, z) * jv(0, z[-1])
+    return shape[:-2] / shape[-2]
 
 
 def steady_tension_frequencies(string: HangingString, count: int) -> np.ndarray:
     """The same under ``T = m g`` everywhere: ``cot b = (m/(rho l)) b`` with ``b = w l/c``."""
     ratio = string.mass / (string.line_density * string.length)
     speed = np.sqrt(string.mass * string.gravity / string.line_density)
-    roots = [
-        brentq(lambda b: np.cos(b) - ratio * b * np.sin(b), k * np.pi + 1e-9, (k + 1) * np.pi - 1e-9, xtol=1e-14)
-        for k in range(count)
-    ]
-    return np.array(roots) * speed / string.length
+    found = roots(lambda b: np.cos(b) - ratio * b * np.sin(b), np.arange(count + 1) * np.pi + 1e-9, count)
+    return found * speed / string.length
 
 
 def damped_poles(string: HangingString, tip_damping: float, count: int, stages: int = 5) -> np.ndarray:
-    """Roots of ``(m lam^2 + c_tip lam) Y + T Y_x = 0`` at the ROV with Y the string's shape at pole lam, 1/s.
+    """Poles, 1/s, with a damper at the ROV.
 
     Followed from the undamped ones while the damper grows, so that none is left out or found twice. A mode that is
     overdamped in the end, which has left the upper half plane, does not count.
     """
-    found = 1j * frequencies(string, count + 1)
-    for stage in range(1, stages + 1):
-        found = np.array([_damped_pole(string, tip_damping * stage / stages, near) for near in found])
-    upper = found[np.imag(found) > 1e-9]
+    found = list(frequencies(string, count + 1))
+    for damping in tip_damping * np.arange(1, stages + 1) / stages:
+        found = [_exact(string, near, damping, 20) for near in found]
+    poles = 1j * np.array(found, dtype=complex)
+    upper = poles[np.imag(poles) > 1e-9]
     return upper[np.argsort(np.imag(upper))][:count]
-
-
-def _damped_pole(string: HangingString, tip_damping: float, near: complex) -> complex:
-    foot, top = float(string.argument(0.0)), float(string.argument(string.length))
-
-    def residue(lam: Any) -> Any:
-        w = -1j * lam
-        z0, z1 = foot * w, top * w
-
-        def shape(order: int) -> Any:
-            return mpmath.besselj(order, z0) * mpmath.bessely(0, z1) - mpmath.bessely(order, z0) * mpmath.besselj(0, z1)
-
-        # dz/ds = 2 w^2 rho/(q z), s up from the ROV; J0' = -J1, and Y_x = -Y_s.
-        slope = shape(1) * 2 * w * w * string.line_density / (string.line_weight * z0)
-        return (string.mass * lam * lam + tip_damping * lam) * shape(0) + string.weight * slope
-
-    with mpmath.workdps(20):
-        return complex(mpmath.findroot(residue, near))
 
 
 def static_shape(string: HangingString, force: float, sigma: np.ndarray) -> np.ndarray:
@@ -133,35 +103,19 @@ def static_shape(string: HangingString, force: float, sigma: np.ndarray) -> np.n
     return force / string.line_weight * np.log((foot + gained) / (foot + gained * (1.0 - sigma)))
 
 
-class _Mode(NamedTuple):
-    """Frequency, rad/s; shape at the ROV; ``int rho phi^2 ds + m phi(0)^2`` and ``int rho phi ds + m phi(0)``."""
-
-    frequency: float
-    tip: float
-    inertia: float
-    share: float
-
-
-def _modes(string: HangingString, count: int) -> list[_Mode]:
+def _modes(string: HangingString, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Frequencies, rad/s, and with phi 1 at the ROV ``int rho phi^2 ds + m`` and ``int rho phi ds + m``."""
     points, weights = np.polynomial.legendre.leggauss(240)
-    above = 0.5 * string.length * (points + 1.0)
     weights = 0.5 * string.length * string.line_density * weights
-    found = []
-    for w in _scanned(string, count):
-        z = w * string.argument(np.append(above, [0.0, string.length]))
-        shape = jv(0, z) * yv(0, z[-1]) - yv(0, z) * jv(0, z[-1])
-        along, tip = shape[:-2], float(shape[-2])
-        inertia, share = weights @ along**2 + string.mass * tip**2, weights @ along + string.mass * tip
-        found.append(_Mode(w, tip, float(inertia), float(share)))
-    return found
+    found = _scanned(string, count)
+    shapes = np.array([mode_shape(string, w, 0.5 * string.length * (points + 1.0)) for w in found])
+    return found, shapes**2 @ weights + string.mass, shapes @ weights + string.mass
 
 
 def released_tip(string: HangingString, force: float, t: np.ndarray, count: int = 80) -> np.ndarray:
     """y(l,t), m, undamped, released from rest under ``force``: the sum of ``P phi^2 cos(w t)/(w^2 M)``."""
-    return sum(
-        (force * m.tip**2 / (m.frequency**2 * m.inertia) * np.cos(m.frequency * t) for m in _modes(string, count)),
-        start=np.zeros_like(t),
-    )
+    frequency, inertia, _ = _modes(string, count)
+    return np.cos(np.multiply.outer(t, frequency)) @ (force / (frequency**2 * inertia))
 
 
 def carried_tip(
@@ -176,13 +130,12 @@ def carried_tip(
         count: modes.
     """
     points, weights = np.polynomial.legendre.leggauss(3)
-    step = float(t[1] - t[0])
-    inside = t[:-1, None] + 0.5 * step * (points + 1.0)
-    pushed = acceleration(inside) * 0.5 * step
-    tip = np.zeros_like(t)
-    for m in _modes(string, count):
+    half, tip = 0.5 * float(t[1] - t[0]), np.zeros_like(t)
+    inside = t[:-1, None] + half * (points + 1.0)
+    pushed = acceleration(inside) * half * weights
+    for frequency, inertia, share in zip(*_modes(string, count), strict=True):
         # q' + i w q turns at w and takes up -e'' int rho phi/M on the way.
-        taken = -(pushed * np.exp(-1j * m.frequency * inside)) @ weights * m.share / m.inertia
-        turning = np.concatenate([[0.0], np.cumsum(taken)]) * np.exp(1j * m.frequency * t)
-        tip += m.tip * np.imag(turning) / m.frequency
+        taken = -(pushed * np.exp(-1j * frequency * inside)).sum(axis=1) * share / inertia
+        turning = np.append(0.0, np.cumsum(taken)) * np.exp(1j * frequency * t)
+        tip += np.imag(turning) / frequency
     return tip

@@ -1,39 +1,81 @@
-"""A manufactured solution of the full problem, eqs. (6)-(8): every term at work, the length growing or shrinking.
+"""Manufactured solutions of string and rope: every term at work, the length growing or shrinking.
 
-Chosen is ``y = p(t) sin(k sigma) + q(t) cos(k sigma)`` with sigma = x/l(t), which starts from rest. With ``A = 1 -
-sigma`` and ``b = v/l`` the material derivative is ``D/Dt = d/dt + b A d/dsigma``, so what must drive it, from
+Chosen is a sum of histories times shapes of sigma = x/l(t). What must drive it follows by putting it into the
+equations as they stand, over the place x and not over what a solver may make of it; derivatives are those of a fixed
+place, and with ``L = d/dt + w d/dx`` the material derivative has w = v, the winch's speed.
+
+String, eqs. (6)-(8): ``y = p(t) sin(k sigma) + q(t) cos(k sigma)``, which starts from rest, so ``e = q``, and
 
     f = rho D2y/Dt2 - (T y_x)_x + c Dy/Dt         d = m D2y/Dt2 + T y_x + c_tip Dy/Dt  at the ROV
     T = W + w (l - x) - (m + rho (l - x)) a       weights in water, masses with all they are
 
-is known in closed form, and ``e = q``. In a sea there are added mass, drag and current besides, and the sheave heaves::
+In a sea there are added mass, drag and current besides, and the sheave heaves::
 
     f = ... + rho_a (d/dt + zeta' d/dx)^2 y - f_n - (rho_w A_c + rho_a) u_t
     f_n = q_n |u_r| u_r - q_t |v_z| v_z y_x,      u_r = u - y_t - zeta' y_x,      v_z = v - zeta'
     d = ... + A_h V' - (D_l + D_q |u - V|) (u - V) - (A_h + W_FK) u_t
     T = ... - A_z a_z - (q_b + q_t (l - x)) |v_z| v_z,      a_z = a - zeta'' in place of a
 
-The equation as it stands, over the place x and not over what a solver may make of it.
+Rope, docs/rope.md: ``r = a(t) + b(t) sigma + c(t) sin(k sigma) + d(t) (cos(k sigma) - 1)`` with vectors a to d.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 Array = np.ndarray
-WAVENUMBER = 2.3 * np.pi
+History = Sequence[Any] | Array
+"""A value with its two derivatives."""
+WAVENUMBER, ROPE_WAVENUMBER = 2.3 * np.pi, 1.3 * np.pi
 HEAVING, SURGING = 1.1, 1.7
 """Frequencies of the sheave's heave and of the current, rad/s."""
+SEA_WATER = 1025.0
 
 
-class Histories(NamedTuple):
-    """A history with its two time derivatives."""
+def from_rest(size: float, frequency: float, t: Any) -> History:
+    """``size (1 - cos w t)``."""
+    w = frequency
+    return size * (1.0 - np.cos(w * t)), size * w * np.sin(w * t), size * w * w * np.cos(w * t)
+
+
+class Jet(NamedTuple):
+    """A solution and its derivatives over place and time, at a fixed place."""
 
     value: Array
-    first: Array
-    second: Array
+    x: Array
+    xx: Array
+    t: Array
+    xt: Array
+    tt: Array
+
+    def along(self, speed: Any, change: Any) -> tuple[Array, Array]:
+        """``L y`` and ``L^2 y`` for ``L = d/dt + w d/dx``, w the ``speed`` and w' its ``change``."""
+        twice = self.tt + 2.0 * speed * self.xt + speed**2 * self.xx + change * self.x
+        return self.t + speed * self.x, twice
+
+
+def jet(histories: Sequence[History], shapes: Sequence[History], sigma: Array, winch: History) -> Jet:
+    """The sum of histories times shapes by the chain rule; ``winch`` gives length, speed and acceleration."""
+
+    def of(time: int, place: int) -> Array:
+        return sum((h[time] * s[place] for h, s in zip(histories, shapes, strict=True)), start=np.zeros(()))
+
+    length, v, a = winch
+    moved, changed = -sigma * v / length, sigma * (2.0 * (v / length) ** 2 - a / length)
+    return Jet(
+        value=of(0, 0), x=of(0, 1) / length, xx=of(0, 2) / length**2, t=of(1, 0) + moved * of(0, 1),
+        xt=(of(1, 1) + moved * of(0, 2) - v / length * of(0, 1)) / length,
+        tt=of(2, 0) + 2.0 * moved * of(1, 1) + moved**2 * of(0, 2) + changed * of(0, 1),
+    )  # fmt: skip
+
+
+def _waves(k: float, sigma: Array, less: float = 0.0) -> tuple[History, History]:
+    """sin(k sigma) and cos(k sigma) - ``less`` with two derivatives."""
+    s, c = np.sin(k * sigma), np.cos(k * sigma)
+    return (s, k * c, -k * k * s), (c - less, -k * s, -k * k * c)
 
 
 class Sea(NamedTuple):
@@ -63,11 +105,6 @@ class Sea(NamedTuple):
     shear: float = 0.0
     surge: float = 0.0
     heave: float = 0.0
-
-    def heaving(self, t: Array) -> tuple[Array, Array, Array]:
-        """zeta, m, with its two derivatives."""
-        w, size = HEAVING, self.heave
-        return size * (1.0 - np.cos(w * t)), size * w * np.sin(w * t), size * w * w * np.cos(w * t)
 
     def water(self, depth: Array, t: Array) -> tuple[Array, Array]:
         """u and u_t at a fixed depth, m/s and m/s2."""
@@ -106,120 +143,158 @@ class StringProblem(NamedTuple):
         """p(0), m."""
         return 0.0 if self.steady else 4.0 / 3.0
 
-    def winch(self, t: Array) -> tuple[Array, Array, Array]:
+    def winch(self, t: Array) -> History:
         """Length, speed, acceleration."""
         if self.steady:
             return self.start_length + self.speed * t, self.speed + 0.0 * t, 0.0 * t
-        w, s = self.frequency, self.swing
-        length = self.start_length + s * (1.0 - np.cos(w * t))
-        return length, s * w * np.sin(w * t), s * w * w * np.cos(w * t)
+        out, *rates = from_rest(self.swing, self.frequency, t)
+        return self.start_length + out, *rates
 
-    def tension_at_the_tip(self, t: Array) -> Array:
-        """T(l) = W - (m + A_z) a_z less the drag of the ROV as it sinks, N."""
-        _, speed, acceleration = self.winch(t)
-        _, zeta, zeta_rate = self.sea.heaving(t)
-        sinks = speed - zeta
-        moved = self.mass + self.sea.body_vertical
-        return self.weight - moved * (acceleration - zeta_rate) - self.sea.body_axial * sinks * abs(sinks)
+    def at(self, sigma: Array, t: Array) -> Jet:
+        """y; ``q = q0 (1 - cos(1.3 t))`` is also the vessel's motion, and ``p = p(0) - (1 - cos(2 t))/3``."""
+        value, *rates = from_rest(-1.0 / 3.0, 2.0, t)
+        histories = (self.start + value, *rates), from_rest(self.vessel, 1.3, t)
+        return jet(histories, _waves(WAVENUMBER, sigma), sigma, self.winch(t))
 
-    def sine_part(self, t: Array) -> Histories:
-        """p(t) = p(0) - (1 - cos(2 t))/3."""
-        value = self.start - (1.0 - np.cos(2.0 * t)) / 3.0
-        return Histories(value, -2.0 / 3.0 * np.sin(2.0 * t), -4.0 / 3.0 * np.cos(2.0 * t))
+    def sinking(self, t: Array) -> History:
+        """zeta, v_z and a_z: the heave, and how ROV and cable sink, m/s and m/s2."""
+        (_, speed, acceleration), (heave, up, rate) = self.winch(t), from_rest(self.sea.heave, HEAVING, t)
+        return heave, speed - up, acceleration - rate
 
-    def cosine_part(self, t: Array) -> Histories:
-        """q(t) = q0 (1 - cos(1.3 t)): also the vessel's motion."""
-        w, q0 = 1.3, self.vessel
-        return Histories(q0 * (1.0 - np.cos(w * t)), q0 * w * np.sin(w * t), q0 * w * w * np.cos(w * t))
+    def tension(self, above: Array, t: Array) -> tuple[Array, Array]:
+        """T at a height above the ROV, N, and what it gains per metre, N/m."""
+        sea, (_, sinks, sunk) = self.sea, self.sinking(t)
+        braked = sinks * abs(sinks)
+        gain = self.cable_weight - self.line_density * sunk - sea.tangential * braked
+        return self.weight - (self.mass + sea.body_vertical) * sunk - sea.body_axial * braked + gain * above, gain
 
 
 def displacement(problem: StringProblem, sigma: Array, t: Array | float) -> Array:
     """y, m."""
-    angle, now = WAVENUMBER * sigma, np.asarray(t)
-    return problem.sine_part(now).value * np.sin(angle) + problem.cosine_part(now).value * np.cos(angle)
+    return problem.at(sigma, np.asarray(t)).value
 
 
 def velocity(problem: StringProblem, sigma: Array, t: Array | float) -> Array:
     """Dy/Dt, m/s."""
-    now = np.asarray(t)
-    p, q = problem.sine_part(now), problem.cosine_part(now)
-    length, speed, _ = problem.winch(now)
-    angle, slide = WAVENUMBER * sigma, WAVENUMBER * speed / length * (1.0 - sigma)
-    return (p.first - slide * q.value) * np.sin(angle) + (q.first + slide * p.value) * np.cos(angle)
+    return problem.at(sigma, np.asarray(t)).along(problem.winch(np.asarray(t))[1], 0.0)[0]
 
 
 def tip_slope_rate(problem: StringProblem, t: Array) -> Array:
-    """D(y_x)/Dt at the ROV, 1/s: there A = 0, so it is the plain time derivative of the slope."""
-    p, q = problem.sine_part(t), problem.cosine_part(t)
-    length, speed, _ = problem.winch(t)
-    s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
-    value, rate = p.value * c - q.value * s, p.first * c - q.first * s
-    return WAVENUMBER / length * (rate - speed / length * value)
-
-
-def _along(problem: StringProblem, sigma: Array, t: Array, carrier: Array, change: Array) -> tuple[Array, Array]:
-    """``L y`` and ``L^2 y`` for ``L = d_t + w d_x`` at a fixed place, w the ``carrier`` and w' its ``change``.
-
-    Over sigma that is ``d_t + b d_sigma`` with ``b = (w - v sigma)/l``.
-    """
-    p, q = problem.sine_part(t), problem.cosine_part(t)
-    length, speed, acceleration = problem.winch(t)
-    k, s, c = WAVENUMBER, np.sin(WAVENUMBER * sigma), np.cos(WAVENUMBER * sigma)
-    b = (carrier - speed * sigma) / length
-    changes = (change - acceleration * sigma) / length - b * speed / length  # b_t
-    bent = k * (p.value * c - q.value * s)  # y_sigma
-    turning = k * (p.first * c - q.first * s)
-    curved = -k * k * (p.value * s + q.value * c)
-    once = p.first * s + q.first * c + b * bent
-    twice = p.second * s + q.second * c + 2.0 * b * turning + (changes - b * speed / length) * bent + b * b * curved
-    return once, twice
+    """D(y_x)/Dt at the ROV, 1/s."""
+    y = problem.at(np.ones(()), t)
+    return y.xt + problem.winch(t)[1] * y.xx
 
 
 def cable_load(problem: StringProblem, sigma: Array, t: Array) -> Array:
     """f, N/m, at the places sigma and instants t, which broadcast: (A0) of docs/theory.md solved for it."""
-    sea, k = problem.sea, WAVENUMBER
-    length, speed, acceleration = problem.winch(t)
-    heave, zeta, zeta_rate = sea.heaving(t)
-    p, q = problem.sine_part(t), problem.cosine_part(t)
-    s, c = np.sin(k * sigma), np.cos(k * sigma)
-    slope, curved = k * (p.value * c - q.value * s) / length, -k * k * (p.value * s + q.value * c) / length**2
-    material, inertial = _along(problem, sigma, t, speed, acceleration)
-    passing, added = _along(problem, sigma, t, zeta, zeta_rate)  # y_t + zeta' y_x: what the water sees
-    sinks, above = speed - zeta, length * (1.0 - sigma)
-    braked = sinks * abs(sinks)
-    gain = problem.cable_weight - problem.line_density * (acceleration - zeta_rate) - sea.tangential * braked
-    tension = problem.tension_at_the_tip(t) + gain * above
-    pull = tension * curved - gain * slope
+    sea, y, (length, speed, acceleration) = problem.sea, problem.at(sigma, t), problem.winch(t)
+    heave, sinks, sunk = problem.sinking(t)
+    material, inertial = y.along(speed, acceleration)
+    passing, added = y.along(speed - sinks, acceleration - sunk)  # y_t + zeta' y_x: what the water sees
+    tension, gain = problem.tension(length * (1.0 - sigma), t)
     flow, changing = sea.water(length * sigma - heave, t)
-    drag = sea.normal * abs(flow - passing) * (flow - passing) - sea.tangential * braked * slope
+    drag = sea.normal * abs(flow - passing) * (flow - passing) - sea.tangential * sinks * abs(sinks) * y.x
     inertia = problem.line_density * inertial + sea.added * added - (sea.displaced + sea.added) * changing
-    return inertia - pull + problem.damping * material - drag
+    return inertia - (tension * y.xx - gain * y.x) + problem.damping * material - drag
 
 
 def tip_force(problem: StringProblem, t: Array) -> Array:
-    """d(t), N: at the ROV A = 0, so D/Dt is the plain time derivative of p and q."""
-    sea = problem.sea
-    p, q = problem.sine_part(t), problem.cosine_part(t)
-    length = problem.winch(t)[0]
-    heave = sea.heaving(t)[0]
-    s, c = np.sin(WAVENUMBER), np.cos(WAVENUMBER)
-    first, second = p.first * s + q.first * c, p.second * s + q.second * c
-    slope = WAVENUMBER * (p.value * c - q.value * s) / length
-    flow, changing = sea.water(length - heave, t)
+    """d(t), N."""
+    sea, y, (length, speed, acceleration) = problem.sea, problem.at(np.ones(()), t), problem.winch(t)
+    first, second = y.along(speed, acceleration)
+    flow, changing = sea.water(length - problem.sinking(t)[0], t)
     relative = flow - first
     drag = (sea.body_linear + sea.body_quadratic * abs(relative)) * relative
     moved = (sea.body_added + sea.body_displaced) * changing
-    inertia = (problem.mass + sea.body_added) * second
-    return inertia + problem.tension_at_the_tip(t) * slope + problem.tip_damping * first - drag - moved
+    pull = problem.tension(np.zeros(()), t)[0] * y.x
+    return (problem.mass + sea.body_added) * second + pull + problem.tip_damping * first - drag - moved
 
 
 def wave_amplitude(problem: StringProblem, t: float) -> float:
     """Largest ``|Dy/Dt +- c y_x|``, m/s: the waves that run up and down, of which y is the sum; no water."""
-    sigma = np.linspace(0.0, 1.0, 201)
-    length, _, acceleration = problem.winch(np.asarray(t))
+    sigma, now = np.linspace(0.0, 1.0, 201), np.asarray(t)
+    length, _, acceleration = problem.winch(now)
     gain = problem.cable_weight - problem.line_density * acceleration
-    tension = problem.tension_at_the_tip(np.asarray(t)) + gain * length * (1.0 - sigma)
-    slope = np.gradient(displacement(problem, sigma, t), sigma) / length
-    running = np.sqrt(tension / problem.line_density) * slope
+    tension = problem.tension(np.zeros(()), now)[0] + gain * length * (1.0 - sigma)
+    running = np.sqrt(tension / problem.line_density) * problem.at(sigma, now).x
     w = velocity(problem, sigma, t)
     return float(max(np.abs(w + running).max(), np.abs(w - running).max()))
+
+
+class RopeProblem(NamedTuple):
+    """Cable and body, SI units, and ``l = l0 + s (t + (1 - cos t)/5)``; the cable is taut and slides one way."""
+
+    swing: float
+    stiffness: float = 2e4
+    density: float = 2.0
+    weight: float = 15.0
+    diameter: float = 0.04
+    normal: float = 1.2
+    tangential: float = 0.05
+    added_mass: float = 1.0
+    mass: float = 40.0
+    body_weight: float = 300.0
+    body_added: tuple[float, float, float] = (20.0, 30.0, 50.0)
+    body_drag: tuple[float, float, float] = (10.0, 20.0, 30.0)
+    current: tuple[float, float, float] = (0.3, -0.4, 0.0)
+    start_length: float = 60.0
+
+    def winch(self, t: float) -> History:
+        """Length, speed, acceleration."""
+        out, speed, acceleration = from_rest(0.2 * self.swing, 1.0, t)
+        return self.start_length + self.swing * t + out, self.swing + speed, acceleration
+
+    def at(self, sigma: Array, t: float) -> Jet:
+        """r, each derivative of shape (3, places)."""
+
+        def swings(sizes: list[float], rates: list[float], phase: float) -> Array:
+            size, rate = np.array([sizes, rates])[..., None]
+            angle = rate * t + phase
+            return np.array([size * np.sin(angle), size * rate * np.cos(angle), -size * rate**2 * np.sin(angle)])
+
+        down = np.zeros((3, 3, 1))
+        down[:, 2, 0] = -1.08 * np.array(self.winch(t))
+        histories = (
+            swings([0.4, 0.3, 0.2], [1.3, 1.1, 1.7], 0.4),
+            swings([6.0, -4.0, 0.0], [0.7, 0.9, 1.0], 0.8) + down,
+            swings([2.5, 1.5, 0.3], [1.2, 1.6, 2.1], 1.1),
+            swings([1.0, 2.0, 0.2], [1.7, 0.8, 1.4], -0.5),
+        )
+        one, zero = np.ones_like(sigma), np.zeros_like(sigma)
+        straight = (one, zero, zero), (sigma, one, zero)
+        return jet(histories, (*straight, *_waves(ROPE_WAVENUMBER, sigma, 1.0)), sigma, self.winch(t))
+
+
+def acceleration_given(problem: RopeProblem, sigma: Array, t: float) -> Array:
+    """What a load must add to DW/Dt, m/s2, shape (3, places): Mb^-1 times the force that the equations lack."""
+    r, (_, speed, change) = problem.at(sigma, t), problem.winch(t)
+    velocity, acceleration = r.along(speed, change)
+    added, half = problem.added_mass * SEA_WATER * np.pi / 4.0 * problem.diameter**2, 0.5 * SEA_WATER * problem.diameter
+    size = np.linalg.norm(r.x, axis=0)
+    tangent = r.x / size
+
+    def across(vector: Array) -> Array:
+        return vector - (vector * tangent).sum(axis=0) * tangent
+
+    pull_x = problem.stiffness * ((1.0 - 1.0 / size) * r.xx + (r.x * r.xx).sum(axis=0) / size**3 * r.x)
+    relative = np.array(problem.current)[:, None] - velocity
+    slide = -(relative * tangent).sum(axis=0)
+    moved = acceleration - 2.0 * slide * (r.xt + speed * r.xx) / size + slide**2 * across(r.xx) / size**2
+    normal = across(relative)
+    drag = half * problem.normal * np.linalg.norm(normal, axis=0) * normal
+    drag = drag - half * np.pi * problem.tangential * np.abs(slide) * slide * tangent
+    weight = np.array([[0.0], [0.0], [-problem.weight]])
+    lacking = problem.density * acceleration + added * across(moved) - pull_x - drag - weight
+    side = across(lacking)
+    return (lacking - side) / problem.density + side / (problem.density + added)
+
+
+def body_force(problem: RopeProblem, t: float) -> Array:
+    """What must act on the body, N, shape (3,)."""
+    r, (_, speed, change) = problem.at(np.ones(1), t), problem.winch(t)
+    slope, velocity, acceleration = r.x[:, 0], *(rate[:, 0] for rate in r.along(speed, change))
+    pull = problem.stiffness * (1.0 - 1.0 / np.linalg.norm(slope)) * slope
+    relative = np.array(problem.current) - velocity
+    drag = np.array(problem.body_drag) * np.abs(relative) * relative
+    inertia = problem.mass + np.array(problem.body_added)
+    return inertia * acceleration + pull - drag + np.array([0.0, 0.0, problem.body_weight])

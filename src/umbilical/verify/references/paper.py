@@ -54,7 +54,7 @@ def commanded_thrust(x1: float, z1: float, tension: float, s: np.ndarray) -> tup
 
 def motor_loops(thrust: float, w: np.ndarray, i: np.ndarray, f: np.ndarray, ups: np.ndarray) -> tuple[Any, ...]:
     """Voltages, and the rates of the command filters and of the motor observers: (52)-(64)."""
-    demand = np.full(2, thrust / THRUST.sum())
+    demand = thrust / THRUST.sum()
     root = demand / (demand**2 + SOFT**2) ** 0.25
     z1, z2 = w, K_T / J * i
     z1_rate = z2 + F11 * z1 + F12 * z1 * abs(z1)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 from scipy.special import ellipk
+
+from umbilical.verify.references import integrated, roots
 
 GRAVITY = 9.81
 SEA_WATER = 1025.0
@@ -28,33 +28,26 @@ def elastic_catenary(
     return float(reach), float(depth), float(np.hypot(pull, top))
 
 
-def transverse_modes(count: int, length: float, density: float, mass: float, stiffness: float = np.inf) -> list[float]:
+def transverse_modes(count: int, length: float, density: float, mass: float, stiffness: float) -> np.ndarray:
     """Angular frequencies of a hanging elastic cable with a free end mass, rad/s, by shooting from the top."""
+    ends = np.array([0.0, length])
 
     def miss(omega: float) -> float:
         def slope(x: float, y: np.ndarray) -> list[float]:
             pull = (mass + density * (length - x)) * GRAVITY
             return [y[1] * (1.0 / pull + 1.0 / stiffness), -density * omega**2 * y[0]]
 
-        end = solve_ivp(slope, (0.0, length), [0.0, 1.0], method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1]
-        return float(end[1] - mass * omega**2 * end[0])
+        place, force = integrated(slope, [0.0, 1.0], ends, method="DOP853", rtol=1e-11, atol=1e-13)[:, -1]
+        return float(force - mass * omega**2 * place)
 
-    return _roots(miss, np.linspace(0.05, 0.6 * (count + 1), 40 * (count + 1)), count)
+    return roots(miss, np.linspace(0.05, 0.6 * (count + 1), 40 * (count + 1)), count)
 
 
-def axial_modes(count: int, length: float, density: float, mass: float, stiffness: float) -> list[float]:
+def axial_modes(count: int, length: float, density: float, mass: float, stiffness: float) -> np.ndarray:
     """Angular frequencies up and down, rad/s: ``b tan b = rho l/m``, b = w l/c."""
-    speed = np.sqrt(stiffness / density)
     ratio = density * length / mass
-    found = _roots(lambda b: float(b * np.sin(b) - ratio * np.cos(b)), np.linspace(1e-6, 4.0 * count, 400), count)
-    return [float(b * speed / length) for b in found]
-
-
-def _roots(function: Callable[[float], float], grid: np.ndarray, count: int) -> list[float]:
-    values = np.array([function(float(x)) for x in grid])
-    places = np.flatnonzero(values[1:] * values[:-1] < 0.0)[:count]
-    roots: list[Any] = [brentq(function, float(grid[k]), float(grid[k + 1]), xtol=1e-14) for k in places]
-    return [float(root) for root in roots]
+    found = roots(lambda b: b * np.sin(b) - ratio * np.cos(b), np.linspace(1e-6, 4.0 * count, 400), count)
+    return found * np.sqrt(stiffness / density) / length
 
 
 def pendulum_period(length: float, angle: float) -> float:
@@ -62,46 +55,35 @@ def pendulum_period(length: float, angle: float) -> float:
     return float(4.0 * np.sqrt(length / GRAVITY) * ellipk(np.sin(angle / 2.0) ** 2))
 
 
-class Towed(NamedTuple):
-    """A cable in a current that depends on the height; SI units."""
-
-    stiffness: float
-    weight: float
-    diameter: float
-    normal: float
-    tangential: float
-    added_mass: float
-    length: float
-    end_weight: float
-    end_drag: tuple[float, float, float]
-
-
-def shape_in_current(cable: Towed, current: Callable[[float], np.ndarray]) -> tuple[np.ndarray, float]:
-    """Place of the end relative to the top, m, and the tension at the top, N.
+def shape_in_current(
+    cable: Any, body: Any, length: float, current: Callable[[float], np.ndarray]
+) -> tuple[np.ndarray, float]:
+    """Place of the end relative to the top, m, and the tension at the top, N, in a current that depends on the height.
 
     Integrated from the end upwards in the Cartesian pull; the depth of the end is a fixed point. The water that slides
-    along the bent cable presses outwards, ``rho_a w^2`` times its curvature.
+    along the bent cable presses outwards, ``rho_a w^2`` times its curvature. ``cable`` has stiffness, weight, diameter,
+    normal_drag, tangential_drag and added_mass, ``body`` weight and drag.
     """
     half = 0.5 * SEA_WATER * cable.diameter
     added = cable.added_mass * SEA_WATER * np.pi / 4.0 * cable.diameter**2
 
-    def slope(s: float, y: np.ndarray) -> np.ndarray:
+    def slope(_: float, y: np.ndarray) -> np.ndarray:
         size = np.linalg.norm(y[:3])
         t, u = y[:3] / size, current(float(y[5]))
         along, stretch = float(u @ t), 1.0 + size / cable.stiffness
         across = u - along * t
-        load = half * cable.normal * np.linalg.norm(across) * across
-        load = load + half * np.pi * cable.tangential * abs(along) * along * t - np.array([0.0, 0.0, cable.weight])
+        load = half * cable.normal_drag * np.linalg.norm(across) * across - np.array([0.0, 0.0, cable.weight])
+        load = load + half * np.pi * cable.tangential_drag * abs(along) * along * t
         sideways = load - (load @ t) * t
         load = (load @ t) * t + sideways / (1.0 - added * along**2 / (stretch * size))
         return np.concatenate([load, -stretch * t])
 
-    height, end = -cable.length, np.zeros(6)
+    height, end = -length, np.zeros(6)
     for _ in range(60):
         u = current(height)
-        pull = np.array(cable.end_drag) * np.abs(u) * u - np.array([0.0, 0.0, cable.end_weight])
+        pull = np.array(body.drag) * np.abs(u) * u - np.array([0.0, 0.0, body.weight])
         start = np.concatenate([pull, [0.0, 0.0, height]])
-        end = solve_ivp(slope, (0.0, cable.length), start, rtol=1e-11, atol=1e-9).y[:, -1]
+        end = integrated(slope, start, np.array([0.0, length]), rtol=1e-11, atol=1e-9)[:, -1]
         if abs(end[5]) < 1e-9:
             break
         height -= end[5]
@@ -131,58 +113,37 @@ def wave_on_body(impedance: float, mass: float, speed: float, omega: float, tau:
     ``m V' = T``, ``T = 2 Z v - Z V`` upwards, before any echo.
     """
     rate = impedance / mass
-    cosine, sine = np.cos(omega * tau), np.sin(omega * tau)
-    share = 2.0 * rate / (rate**2 + omega**2)
+    cosine, sine, share = np.cos(omega * tau), np.sin(omega * tau), 2.0 * rate / (rate**2 + omega**2)
     velocity = speed * share * (rate * cosine + omega * sine - rate * np.exp(-rate * tau))
     return np.where(tau < 0.0, 0.0, 2.0 * impedance * speed * cosine - impedance * velocity)
 
 
-class Heaved(NamedTuple):
-    """A vertical cable with a body in water, for :func:`heaved_masses`; SI units."""
-
-    stiffness: float
-    density: float
-    weight: float
-    tangential: float
-    length: float
-    inertia: float
-    end_weight: float
-    end_drag: float
-
-
 def heaved_masses(
-    cable: Heaved, heave: Callable[[float], tuple[float, float]], times: np.ndarray, masses: int
+    cable: Any, body: Any, length: float, heave: Callable[[Any], Any], times: np.ndarray, masses: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Tension at the top, N, height of the body, m, and the tension at the body, N, of masses on springs without push.
 
-    ``heave`` gives place and velocity of the sheave, m and m/s; ``tangential`` is the drag per metre over the square.
+    ``heave`` gives the place of the sheave, m; ``cable`` has stiffness, density, weight, diameter and tangential_drag,
+    ``body`` mass, added_mass, weight and drag.
     """
-    step = cable.length / masses
-    mass = np.full(masses, cable.density * step)
-    mass[-1] = 0.5 * cable.density * step + cable.inertia
-    load = np.full(masses, cable.weight * step)
-    load[-1] = 0.5 * cable.weight * step + cable.end_weight
-    drag = np.full(masses, cable.tangential * step)
-    drag[-1] = 0.5 * cable.tangential * step + cable.end_drag
+    step, inertia = length / masses, body.mass + body.added_mass
 
-    def pulls(z: np.ndarray, top: float) -> np.ndarray:
-        gaps = np.concatenate([[top], z[:-1]]) - z
-        return cable.stiffness * np.maximum(gaps / step - 1.0, 0.0)
+    def lumped(line: float, end: float) -> np.ndarray:
+        return np.append(np.full(masses - 1, line * step), 0.5 * line * step + end)
 
-    def slope(t: float, y: np.ndarray) -> np.ndarray:
-        z, v = y[:masses], y[masses:]
-        pull = pulls(z, heave(t)[0])
-        net = pull - np.append(pull[1:], 0.0) - load - drag * np.abs(v) * v
-        return np.concatenate([v, net / mass])
+    mass, load = lumped(cable.density, inertia), lumped(cable.weight, body.weight)
+    drag = lumped(0.5 * SEA_WATER * np.pi * cable.diameter * cable.tangential_drag, body.drag)
 
-    below = np.cumsum(load[::-1])[::-1]
-    start = -np.cumsum(step * (1.0 + below / cable.stiffness))
-    state = np.concatenate([start, np.zeros(masses)])
-    options: dict[str, Any] = {"method": "RK45", "rtol": 1e-6, "atol": 1e-7}
-    found = solve_ivp(slope, (0.0, float(times[-1])), state, t_eval=times, **options).y
-    every = np.array([pulls(found[:masses, k], heave(float(t))[0]) for k, t in enumerate(times)])
-    rates = [slope(float(t), found[:, k])[2 * masses - 1] for k, t in enumerate(times)]
-    at_top = every[:, 0] + 0.5 * step * cable.weight
-    speed = found[-1]
-    at_body = cable.inertia * np.array(rates) + cable.end_weight + cable.end_drag * np.abs(speed) * speed
+    def pulls(t: Any, z: np.ndarray) -> np.ndarray:
+        return cable.stiffness * np.maximum(-np.diff(z, prepend=heave(t)[..., None]) / step - 1.0, 0.0)
+
+    def slope(t: Any, y: np.ndarray) -> np.ndarray:
+        z, v = np.split(y.T, 2, axis=-1)
+        net = -np.diff(pulls(t, z), append=0.0) - load - drag * np.abs(v) * v
+        return np.concatenate([v, net / mass], axis=-1).T
+
+    start = -np.cumsum(step * (1.0 + np.cumsum(load[::-1])[::-1] / cable.stiffness))
+    found = integrated(slope, np.append(start, np.zeros(masses)), times, method="RK45", rtol=1e-6, atol=1e-7)
+    at_top = pulls(times, found[:masses].T)[:, 0] + 0.5 * step * cable.weight
+    at_body = inertia * slope(times, found)[-1] + body.weight + body.drag * np.abs(found[-1]) * found[-1]
     return at_top, found[masses - 1], at_body

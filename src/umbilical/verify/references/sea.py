@@ -10,17 +10,21 @@ import numpy as np
 GRAVITY = 9.81
 
 
-def peakedness_factor(gamma: float) -> float:
-    """A of JONSWAP: 1/16 over the integral of the shape for Hs = wp = 1, to 20 digits."""
+def _jonswap(gamma: float, order: int) -> Any:
+    """Moment of the shape for Hs = wp = 1 without A, to 20 digits."""
 
     def integrand(x: Any) -> Any:
         width = mpmath.mpf("0.07") if x <= 1 else mpmath.mpf("0.09")
         peak = mpmath.exp(-(((x - 1) / width) ** 2) / 2)
-        return mpmath.mpf(5) / 16 / x**5 * mpmath.exp(-mpmath.mpf(5) / 4 / x**4) * mpmath.mpf(gamma) ** peak
+        return mpmath.mpf(5) / 16 * x ** (order - 5) * mpmath.exp(-mpmath.mpf(5) / 4 / x**4) * mpmath.mpf(gamma) ** peak
 
+    return mpmath.quad(integrand, [0.1, 0.5, 0.8, 1.0, 1.2, 1.5, 3.0, mpmath.inf])
+
+
+def peakedness_factor(gamma: float) -> float:
+    """A of JONSWAP: 1/16 over the integral of the shape for Hs = wp = 1, to 20 digits."""
     with mpmath.workdps(20):
-        energy: Any = mpmath.quad(integrand, [0.1, 0.5, 0.8, 1.0, 1.2, 1.5, 3.0, mpmath.inf])
-        return float(1 / (16 * energy))
+        return float(1 / (16 * _jonswap(gamma, 0)))
 
 
 def pierson_moskowitz_ratios() -> tuple[float, float]:
@@ -31,13 +35,10 @@ def pierson_moskowitz_ratios() -> tuple[float, float]:
 
 
 def jonswap_ratios(gamma: float) -> tuple[float, float]:
-    """T1/Tp and Tz/Tp of JONSWAP by a fine trapezoidal rule in log(w/wp), and the tail's closed form."""
-    log = np.linspace(np.log(0.2), np.log(50.0), 2_000_001)
-    x = np.exp(log)
-    width = np.where(x <= 1.0, 0.07, 0.09)
-    shape = x**-5 * np.exp(-1.25 * x**-4) * gamma ** np.exp(-(((x - 1.0) / width) ** 2) / 2.0)
-    moment = [np.trapezoid(shape * x ** (n + 1), log) + 50.0 ** (n - 4) / (4 - n) for n in range(3)]
-    return float(moment[0] / moment[1]), float(np.sqrt(moment[0] / moment[2]))
+    """T1/Tp and Tz/Tp of JONSWAP."""
+    with mpmath.workdps(20):
+        zeroth, first, second = (_jonswap(gamma, order) for order in range(3))
+        return float(zeroth / first), float(mpmath.sqrt(zeroth / second))
 
 
 class SpringMasses(NamedTuple):
@@ -71,14 +72,16 @@ def heave_of_masses(
 
 
 def heave_with_drag(
-    cable: SpringMasses, drag: float, omega: np.ndarray, amplitude: np.ndarray
+    cable: SpringMasses, drag: float, omega: np.ndarray, variance: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The same with quadratic drag, linearised for sines of the sheave, m, by fixed-point iteration."""
+    """The same with quadratic drag, linearised for a heave of that ``variance`` at each frequency, m2, by iteration."""
     velocity = 0.5
     for _ in range(200):
         found = heave_of_masses(cable, drag * np.sqrt(8.0 / np.pi) * velocity, omega)
-        moving = np.sqrt(np.sum(abs(omega * found[0] * amplitude) ** 2) / 2.0)
-        velocity = 0.5 * (velocity + float(moving))
+        last, velocity = velocity, float(np.sqrt(np.sum(variance * abs(omega * found[0]) ** 2)))
+        if abs(velocity - last) < 1e-9:
+            break
+        velocity = 0.5 * (velocity + last)
     return found
 
 
@@ -111,53 +114,39 @@ CONVENTIONS: dict[str, dict[str, Any]] = {
 def rao_rows(ship: Any, convention: dict[str, Any]) -> dict[str, Any]:
     """Rows of a table that says in a convention what ``ship.motions`` says; headings 0 to 180 degrees, 25 to 2.4 s."""
     down, slope = convention["axes"] == "starboard_down", convention.get("rotations") == "per_slope"
-    rows: dict[str, list[float]] = {name: [] for name in ("heading", "frequency")}
-    for degrees in range(0, 181, 15):
-        for omega in [0.25, 0.32, 0.4, 0.5, 0.6, 0.7, 0.85, 1.1, 1.5, 2.0, 2.6]:
-            towards = degrees * np.pi / 180.0
-            surge, sway, heave, roll, pitch, yaw = (part[0] for part in ship.motions(np.array([omega]), towards))
-            x, y, z = convention.get("motion_point", (0.0, 0.0, 0.0))
-            there = {"surge": surge + pitch * z - yaw * y, "sway": sway + yaw * x - roll * z,
-                     "heave": heave + roll * y - pitch * x, "roll": roll, "pitch": pitch, "yaw": yaw}  # fmt: skip
-            number = omega**2 / GRAVITY
-            ahead, aside = convention.get("phase_origin", (0.0, 0.0))
-            crest = np.exp(-1j * number * (ahead * np.cos(towards) + aside * np.sin(towards)))
-            heading = towards - np.pi if convention["waves"] == "from" else towards
-            rows["heading"].append(-heading if down else heading)
-            rows["frequency"].append(omega)
-            for name, value in there.items():
-                turned = -value if down and name in ("sway", "heave", "pitch", "yaw") else value
-                turned = turned / crest / (number if slope and name in ("roll", "pitch", "yaw") else 1.0)
-                ahead_of_crest = float(np.angle(turned))
-                rows.setdefault(name, []).append(float(abs(turned)))
-                phase = ahead_of_crest if convention["phase"] == "lead" else -ahead_of_crest
-                rows.setdefault(f"{name}_phase", []).append(phase)
-    return {"kind": "rao", **convention, **{name: tuple(values) for name, values in rows.items()}}
+    x, y, z = convention.get("motion_point", (0.0, 0.0, 0.0))
+    ahead, aside = convention.get("phase_origin", (0.0, 0.0))
+    omega = np.array([0.25, 0.32, 0.4, 0.5, 0.6, 0.7, 0.85, 1.1, 1.5, 2.0, 2.6])
+    number, rows = omega**2 / GRAVITY, {}
+    for towards in np.radians(np.arange(0, 181, 15)):
+        surge, sway, heave, roll, pitch, yaw = ship.motions(omega, towards)
+        there = {"surge": surge + pitch * z - yaw * y, "sway": sway + yaw * x - roll * z,
+                 "heave": heave + roll * y - pitch * x, "roll": roll, "pitch": pitch, "yaw": yaw}  # fmt: skip
+        crest = np.exp(-1j * number * (ahead * np.cos(towards) + aside * np.sin(towards)))
+        heading = towards - np.pi if convention["waves"] == "from" else towards
+        columns = {"heading": np.full(omega.size, -heading if down else heading), "frequency": omega}
+        for name, value in there.items():
+            turned = -value if down and name in ("sway", "heave", "pitch", "yaw") else value
+            turned = turned / crest / (number if slope and name in ("roll", "pitch", "yaw") else 1.0)
+            phase = np.angle(turned if convention["phase"] == "lead" else np.conj(turned))
+            columns |= {name: np.abs(turned), f"{name}_phase": phase}
+        for name, values in columns.items():
+            rows[name] = (*rows.get(name, ()), *values.tolist())
+    return {"kind": "rao", **convention, **rows}
 
 
 def work_class_statistics(height: float, depth: float, heading: float) -> dict[str, float]:
     """Rms of tension and body, and the probability of slack in three hours, Tp 8 s; drag by fixed-point iteration."""
-    omega = np.arange(0.2, 4.0, 0.002)
-    peak = 2.0 * np.pi / 8.0
+    omega, peak = np.arange(0.2, 4.0, 0.002), 2.0 * np.pi / 8.0
     width = np.where(omega <= peak, 0.07, 0.09)
     gain = 3.3 ** np.exp(-(((omega - peak) / (width * peak)) ** 2) / 2.0)
     sea = 5.0 / 16.0 * height**2 * peak**4 / omega**5 * np.exp(-1.25 * (peak / omega) ** 4) * gain
     heave = sea * peakedness_factor(3.3) * ship_heave(omega, heading, 10.0) ** 2 * 0.002
-    cable, velocity = WORK_CLASS._replace(length=depth), 0.5
-    for _ in range(100):
-        body, end, top = heave_of_masses(cable, 4500.0 * np.sqrt(8.0 / np.pi) * velocity, omega)
-        last, velocity = velocity, float(np.sqrt(np.sum(heave * abs(omega * body) ** 2)))
-        if abs(velocity - last) < 1e-9:
-            break
-        velocity = 0.5 * (velocity + last)
-    zeroth, second = (float(np.sum(heave * abs(end) ** 2 * omega**n)) for n in (0, 2))
-    events = 10800.0 * np.sqrt(second / zeroth) / (2.0 * np.pi) * np.exp(-(35e3**2) / (2.0 * zeroth))
-    return {
-        "body": float(np.sqrt(np.sum(heave * abs(body) ** 2))),
-        "top": float(np.sqrt(np.sum(heave * abs(top) ** 2))),
-        "end": float(np.sqrt(zeroth)),
-        "slack": float(-np.expm1(-events)),
-    }
+    answers = heave_with_drag(WORK_CLASS._replace(length=depth), 4500.0, omega, heave)
+    body, end, top = (float(np.sqrt(np.sum(heave * abs(answer) ** 2))) for answer in answers)
+    rate = np.sqrt(np.sum(heave * abs(answers[1] * omega) ** 2)) / end / (2.0 * np.pi)
+    slack = -np.expm1(-10800.0 * rate * np.exp(-(35e3**2) / (2.0 * end**2)))
+    return {"body": body, "end": end, "top": top, "slack": float(slack)}
 
 
 def masses_in_waves(
