@@ -14,7 +14,7 @@ import xarray
 
 from tests.support.studies import small_study
 from umbilical import load
-from umbilical.engine.simulate import measure, simulate
+from umbilical.engine.simulate import measure, measuring, simulate
 from umbilical.errors import FileError, OutputError
 from umbilical.formats import to_netcdf
 from umbilical.stored_runs import open_run
@@ -118,12 +118,12 @@ def test_what_goes_wrong_is_a_row_with_its_reason(monkeypatch):
         arms=[{"name": "free", "changes": {"control.law.kind": "none"}}],
     )
 
-    def unlucky(scenario, controller):
+    def unlucky(scenario, *others):
         if scenario.payload.mass == 450.0:
             raise RuntimeError("out of luck")
-        return measure(scenario, controller)
+        return (yield from measuring(scenario, *others))
 
-    monkeypatch.setattr(rows, "measure", unlucky)
+    monkeypatch.setattr(rows, "measuring", unlucky)
     result = sweep(study, engine=engines.threads(2))
     status = result["status"].values[:, 0].reshape(4, 4)
     reasons = result["reason"].values[:, 0].reshape(4, 4)
@@ -192,15 +192,15 @@ def test_room_is_needed_only_for_what_is_not_there_yet(tmp_path, monkeypatch):
         sweep(study, tmp_path / "other")
 
 
-def broken(scenario, controller):
+def broken(scenario, *others):
     """Heavy members meet a bug of ours."""
     if scenario.payload.mass > 500.0:
         raise RuntimeError("out of luck")
-    return measure(scenario, controller)
+    return (yield from measuring(scenario, *others))
 
 
 def test_the_worst_are_kept_of_those_that_have_a_run(tmp_path, monkeypatch):
-    monkeypatch.setattr(rows, "measure", broken)
+    monkeypatch.setattr(rows, "measuring", broken)
     result = sweep(small_study(trajectories={"keep": "worst", "count": 2}), tmp_path / "out")
     for number, arm in enumerate(result.arms, start=1):
         names = {file.name for file in (tmp_path / "out" / "runs").glob(f"*-arm-{number}.nc")}

@@ -51,6 +51,12 @@ class Model(ABC):
         """Every so many updates one is stored."""
         return self._record.every
 
+    def sample_with(self, samplers: list[Any]) -> None:
+        """Let one of these that samples the same do it, or be one of them."""
+        if self._sampler not in samplers:
+            samplers.append(self._sampler)
+        self._sampler = samplers[samplers.index(self._sampler)]
+
     def sample(self, part: Stretch) -> Any:
         """What acts from outside during a stretch; its ``refresh`` marks steps before which something jumped."""
         inputs = self._sampler.sample(part.steps)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from time import perf_counter
 from traceback import extract_tb
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from umbilical.errors import ControllerError, expect
 from umbilical.library import admit
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
+
+T = TypeVar("T")
 
 
 class MeasuredRun(NamedTuple):
@@ -91,7 +93,7 @@ def _simulate(scenario: Scenario, controller: Controller | None, progress: Calla
     notices = tuple(str(notice) for notice in admit(scenario))
     model = make_model(scenario)
     prepared = perf_counter()
-    ending, sampling = _run(scenario, model, progress)
+    ending, sampling = _whole(_run(scenario, model, progress))
     simulated = perf_counter()
     timing = {"prepare_s": prepared - begun, "simulate_s": simulated - prepared, "outside_s": sampling}
     return model.assemble(ending, (*notices, *model.notices()), timing)
@@ -124,10 +126,45 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Measure
     >>> measure(scenario).metrics["tip_peak"] == simulate(scenario).metrics["tip_peak"]
     True
     """
-    return _measure(_on_its_grid(scenario, controller)[0], controller)
+    return _whole(measuring(scenario, controller))
+
+
+def measuring(
+    scenario: Scenario, controller: Controller | None = None, samplers: list[Any] | None = None
+) -> Generator[None, None, MeasuredRun]:
+    """Do :func:`measure` piece by piece, and return what it does.
+
+    Args:
+        scenario, controller: as there.
+        samplers: one list for runs that are taken in turns, empty at first: those with the same outside world share it.
+    """
+    return (yield from _measuring(_on_its_grid(scenario, controller)[0], controller, samplers))
+
+
+def in_turns(runs: Sequence[Generator[None, None, T]]) -> list[T]:
+    """Take a piece of each, again and again; what they return, in their order."""
+    found: dict[int, T] = {}
+    while len(found) < len(runs):
+        for number, run in enumerate(runs):
+            if number not in found:
+                try:
+                    next(run)
+                except StopIteration as end:
+                    found[number] = end.value
+    return [found[number] for number in range(len(runs))]
+
+
+def _whole(run: Generator[None, None, T]) -> T:
+    return in_turns([run])[0]
 
 
 def _measure(scenario: Scenario, controller: Controller | None) -> MeasuredRun:
+    return _whole(_measuring(scenario, controller, None))
+
+
+def _measuring(
+    scenario: Scenario, controller: Controller | None, samplers: list[Any] | None
+) -> Generator[None, None, MeasuredRun]:
     if controller is not None:
         episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
         if (error := follow(episode, controller)) is not None:
@@ -136,7 +173,9 @@ def _measure(scenario: Scenario, controller: Controller | None) -> MeasuredRun:
         return MeasuredRun(ending.status, ending.reason, ending.time, episode.metrics())
     admit(scenario)
     model = make_model(scenario, stored=False)
-    ending, _ = _run(scenario, model, None)
+    if samplers is not None:
+        model.sample_with(samplers)
+    ending, _ = yield from _run(scenario, model, None)
     return MeasuredRun(ending.status, ending.reason, ending.time, model.metrics())
 
 
@@ -203,8 +242,10 @@ def _line(error: BaseException) -> str:
     return f" ({Path(own[0].filename).name}, line {own[0].lineno})" if own else ""
 
 
-def _run(scenario: Scenario, model: Model, progress: Callable[[float], None] | None) -> tuple[Ending, float]:
-    """The loop, stretch by stretch; also the seconds spent sampling the outside world."""
+def _run(
+    scenario: Scenario, model: Model, progress: Callable[[float], None] | None
+) -> Generator[None, None, tuple[Ending, float]]:
+    """The loop, a stretch at a time; also the seconds spent sampling the outside world."""
     clock, sampling, begin, inputs = model.clock, 0.0, 0, None
     try:
         while begin < clock.periods:
@@ -219,6 +260,7 @@ def _run(scenario: Scenario, model: Model, progress: Callable[[float], None] | N
             begin = end
             if progress:
                 progress(end / clock.periods)
+            yield
         # The update at the end: a period without steps.
         if model.run(inputs, np.zeros(2, dtype=np.int64), model.draw(1), clock.periods) != loop.FINISHED:
             return model.diverged(clock.periods), sampling

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Generator
 from typing import Any, NamedTuple
 
-from umbilical.engine.simulate import MeasuredRun, measure, simulate
+from umbilical.engine.simulate import MeasuredRun, in_turns, measuring, simulate
 from umbilical.errors import ControllerError, FileError, ScenarioError
 from umbilical.formats import to_netcdf
 from umbilical.quantities import METRICS
@@ -58,25 +59,27 @@ def _is_cell(cell: Cell) -> bool:
 
 
 def run_member(draws: Draws, member: Member) -> Row:
-    """Simulate one member in every arm. Whatever becomes of it, it is a row.
+    """Simulate one member in every arm, in turns. Whatever becomes of it, it is a row.
 
     >>> from umbilical.studies.load import load_study
     >>> draws = Draws(load_study("fault-map").replace({"scenario.duration": 0.1, "changes": {"grid.elements": 8}}))
     >>> [cell.status for cell in run_member(draws, draws.member(1)).cells]
     ['COMPLETED', 'COMPLETED']
     """
-    stored = draws.study.trajectories.keep == "all"
-    found = [_run_cell(draws, member, arm, stored) for arm in range(len(draws.study.arms))]
+    stored, samplers = draws.study.trajectories.keep == "all", []
+    found = in_turns([_run_cell(draws, member, arm, stored, samplers) for arm in range(len(draws.study.arms))])
     return Row(member.number, tuple(cell for cell, _ in found), tuple(run for _, run in found) if stored else ())
 
 
-def _run_cell(draws: Draws, member: Member, arm: int, stored: bool) -> tuple[Cell, bytes | None]:
+def _run_cell(
+    draws: Draws, member: Member, arm: int, stored: bool, samplers: list[Any]
+) -> Generator[None, None, tuple[Cell, bytes | None]]:
     try:
         scenario = draws.scenario(member, arm)
         controller = make_controller(draws.study.arms[arm].controller, scenario)
         if stored:
             return _stored(scenario, controller)
-        return _cell(measure(scenario, controller)), None
+        return _cell((yield from measuring(scenario, controller, samplers))), None
     except ScenarioError as error:
         problem = error.problems[0]
         return _without_metrics("REFUSED", f"{problem.key} = {problem.value}: allowed is {problem.bound}"), None
