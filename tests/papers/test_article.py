@@ -15,13 +15,13 @@ from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs
 from umbilical.papers.rao2022.figures import PICTURES
 from umbilical.papers.rao2022.ledger import Finding
-from umbilical.papers.rao2022.reproduction import Reproduction, show
+from umbilical.papers.rao2022.reproduction import Reproduction, show_pictures
 
 
 @pytest.fixture(scope="module")
 def found(runs: Runs, findings: tuple[Finding, ...]) -> Reproduction:
     """With two of the figures."""
-    return Reproduction(runs, {}, tuple(show(PICTURES[name], runs, {}) for name in ("fig4", "fig9")), findings)
+    return Reproduction(runs, {}, show_pictures([PICTURES["fig4"], PICTURES["fig9"]], runs, {}), findings)
 
 
 @pytest.fixture(scope="module")

@@ -16,7 +16,7 @@ from umbilical.papers.rao2022.figures.maps import _borders
 from umbilical.papers.rao2022.figures.style import COLUMN_WIDTH
 from umbilical.papers.rao2022.lyapunov import lyapunov
 from umbilical.papers.rao2022.maps import MAPS
-from umbilical.papers.rao2022.reproduction import KINDS, choose, show
+from umbilical.papers.rao2022.reproduction import KINDS, choose, show_pictures
 from umbilical.papers.rao2022.tables import to_csv
 from umbilical.plots.figure import render
 
@@ -89,7 +89,7 @@ def test_cells_of_a_map_lie_around_their_values() -> None:
 
 def test_the_same_run_gives_the_same_files(runs: Runs) -> None:
     picture = PICTURES["fig9"]
-    first, second = show(picture, runs, {}), show(picture, runs, {})
+    first, second = show_pictures([picture, picture], runs, {})
     assert first.contents == second.contents
     assert first.svg == second.svg
     assert set(first.contents) == set(KINDS)
@@ -101,7 +101,9 @@ def test_the_same_run_gives_the_same_files(runs: Runs) -> None:
 def test_another_run_gives_another_figure(runs: Runs) -> None:
     picture = PICTURES["fig9"]
     other = {**runs, picture.experiments[0]: runs["dead, without"]}
-    assert show(picture, runs, {}).contents["png"] != show(picture, other, {}).contents["png"]
+    assert (
+        show_pictures([picture], runs, {})[0].contents["png"] != show_pictures([picture], other, {})[0].contents["png"]
+    )
 
 
 @pytest.mark.parametrize("name", ["fig3", "fig7"])

@@ -46,7 +46,7 @@ def test_only_what_is_not_the_papers_is_changed() -> None:
     """The paper's own cases are presets as they are; every other experiment says what it changes."""
     for experiment in EXPERIMENTS.values():
         assert experiment.what
-        scenario, base = experiment.scenario(), type(experiment)("base", experiment.preset, "").scenario()
+        scenario, base = experiment.scenario(), type(experiment)(experiment.preset, "").scenario()
         assert (scenario == base) == (not experiment.changes)
 
 

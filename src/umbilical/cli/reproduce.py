@@ -46,7 +46,7 @@ def reproduce_command(
     with bar("reproducing the paper") as advance:
         found = reproduction.reproduce(names, maps=maps, processes=default_jobs(), progress=advance)
     moved = moved_in(found)
-    written = reproduction.write(found, out, lambda made: article(made, moved), force=force)
+    written = reproduction.write_files(found, out, lambda made: article(made, moved), force=force)
     for one in moved:
         report(f"not as published: {one}")
     files = written if as_json else _files(found, out, written)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from hashlib import sha256
 
 from umbilical import load
-from umbilical.papers.rao2022.errata import errata
+from umbilical.papers.rao2022.errata import COLUMNS, errata
 from umbilical.papers.rao2022.expected import Deviation
 from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell
 from umbilical.papers.rao2022.figures import DOI, SOURCE, Picture
@@ -178,7 +178,7 @@ def _hashes(found: Reproduction) -> Html:
 def _errata() -> Html:
     intro, sections = errata()
     tables = [
-        table(("where", "printed", "ours", "why"), [tuple(map(prose, entry)) for entry in entries], caption=title)
+        table(COLUMNS, [tuple(map(prose, entry)) for entry in entries], caption=title)
         for title, entries in sections.items()
     ]
     return join([*(paragraph(prose(part)) for part in intro.split("\n\n")), *tables])

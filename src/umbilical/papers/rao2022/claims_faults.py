@@ -191,5 +191,5 @@ def c11(evidence: Evidence) -> Judged:
 
 def _worst_left(run: Run, free: Run) -> float:
     """Largest ratio of peaks and root mean squares to those of another run, over the four places."""
-    names = [f"{at}_{kind}" for at in AT.values() for kind in ("peak", "rms")]
+    names = [f"{at}_{kind}" for at in AT for kind in ("peak", "rms")]
     return max(run.metrics[name] / free.metrics[name] for name in names)

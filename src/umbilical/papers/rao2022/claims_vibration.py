@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from umbilical import Run
-from umbilical.papers.rao2022.experiments import PLACES, Runs, cell
+from umbilical.papers.rao2022.experiments import Runs, cell
 from umbilical.papers.rao2022.ledger import FOLLOWS, Evidence, Judged, relative_error, window_peak
 
 PROPOSED = cell("none", "without")
-AT = dict(zip(PLACES, ("quarter", "mid", "three_quarter", "tip"), strict=True))
-"""Metrics by the place they are taken at."""
+AT = ("quarter", "mid", "three_quarter", "tip")
+"""Places at which metrics are taken."""
 SIGNIFICANT = 0.1
 """A ratio below which we call an improvement significant: an order of magnitude."""
 
@@ -16,7 +16,7 @@ SIGNIFICANT = 0.1
 def c1(evidence: Evidence) -> Judged:
     """Growth without control, with position and with time."""
     free, long = evidence.runs["free"], evidence.runs["free, long"]
-    peaks = {f"{name}_peak": free.metrics[f"{name}_peak"] for name in AT.values()}
+    peaks = {f"{name}_peak": free.metrics[f"{name}_peak"] for name in AT}
     end, longest, in_order = free.scenario.duration, long.scenario.duration, list(peaks.values())
     early, late = window_peak(free, 0.0, end / 2), window_peak(free, end / 2, end)
     with_place = in_order == sorted(in_order)
@@ -41,7 +41,7 @@ def c1(evidence: Evidence) -> Judged:
 
 def _ratios(runs: Runs, name: str, to: str, *kinds: str) -> list[float]:
     """Ratios of peaks, or of metrics of other kinds, at the four places."""
-    metrics = [f"{at}_{kind}" for kind in kinds or ("peak",) for at in AT.values()]
+    metrics = [f"{at}_{kind}" for kind in kinds or ("peak",) for at in AT]
     return [runs[name].metrics[metric] / runs[to].metrics[metric] for metric in metrics]
 
 

@@ -7,13 +7,13 @@ check of ``umbilical reproduce --check``, and the page docs/paper.md, whose numb
 from __future__ import annotations
 
 import json
-import math
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from importlib import resources
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from umbilical.papers.rao2022.experiments import read_data
 from umbilical.papers.rao2022.ledger import WORDS, Finding, Number
 
 FILE = "expected.toml"
@@ -38,12 +38,11 @@ class Deviation(NamedTuple):
 @lru_cache(maxsize=1)
 def published() -> Mapping[str, Any]:
     """What expected.toml says, by claim."""
-    return parse((resources.files("umbilical.papers.rao2022") / FILE).read_text(encoding="utf-8"))
+    return with_tolerances(read_data(FILE))
 
 
-def parse(text: str) -> dict[str, Any]:
-    """Claims of a text of :func:`expected_text`; each number has the tolerance of its kind, and why so much."""
-    claims = tomllib.loads(text)
+def with_tolerances(claims: dict[str, Any]) -> dict[str, Any]:
+    """Claims as the file has them; each number gets the tolerance of its kind, and why so much."""
     for entry in (entry for claim in claims.values() for entry in claim.values() if isinstance(entry, dict)):
         entry |= WORDS["tolerances"][entry["kind"]]
     return claims
@@ -80,33 +79,20 @@ def deviations(
 
 
 def _of_claim(finding: Finding, expected: Mapping[str, Any], complete: bool) -> Iterator[Deviation]:
-    if finding.verdict.value != expected.get("verdict"):
-        yield Deviation(
-            f"{finding.id} verdict", finding.verdict.value, str(expected.get("verdict", "nothing")), "the same"
-        )
+    verdict, published_one = finding.verdict.value, str(expected.get("verdict", "nothing"))
+    if verdict != published_one:
+        yield Deviation(f"{finding.id} verdict", verdict, published_one, "the same")
     numbers = {number.name: number for number in finding.numbers}
     for name in sorted(numbers.keys() - expected.keys()):
         yield Deviation(f"{finding.id}.{name}", f"{numbers[name].value:.6g}", "nothing", "what is published")
     for name, entry in expected.items():
-        if isinstance(entry, Mapping):
-            yield from _of_number(f"{finding.id}.{name}", numbers.get(name), entry, complete)
+        if isinstance(entry, Mapping) and (name in numbers or complete):
+            yield from _of_number(f"{finding.id}.{name}", numbers.get(name), entry)
 
 
-def _of_number(name: str, number: Number | None, entry: Mapping[str, Any], complete: bool) -> Iterator[Deviation]:
-    value, limit = float(entry["value"]), _limit(entry)
-    if number is None:
-        if complete:
-            yield Deviation(name, "not computed", f"{value:g}", f"{limit:.2g} off")
-    elif not _near(number.value, value, limit):
-        yield Deviation(name, f"{number.value:.6g} {number.unit}", f"{value:g}", f"{limit:.2g} off")
-
-
-def _limit(entry: Mapping[str, Any]) -> float:
-    """How far a number may be off."""
-    return float(entry["absolute"]) if "absolute" in entry else float(entry["relative"]) * abs(float(entry["value"]))
-
-
-def _near(found: float, value: float, limit: float) -> bool:
-    if not math.isfinite(value) or not math.isfinite(found):
-        return math.isnan(value) == math.isnan(found) and math.isinf(value) == math.isinf(found)
-    return abs(found - value) <= limit
+def _of_number(name: str, number: Number | None, entry: Mapping[str, Any]) -> Iterator[Deviation]:
+    value = float(entry["value"])
+    limit = float(entry["absolute"]) if "absolute" in entry else float(entry["relative"]) * abs(value)
+    if number is None or not np.isclose(number.value, value, rtol=0.0, atol=limit, equal_nan=True):
+        found = f"{number.value:.6g} {number.unit}" if number else "not computed"
+        yield Deviation(name, found, f"{value:g}", f"{limit:.2g} off")

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from importlib import resources
 from string import Formatter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from umbilical import Run, Status
-from umbilical.papers.rao2022.experiments import Runs
+from umbilical.papers.rao2022.experiments import Runs, read_data
 from umbilical.papers.rao2022.proofs import Proofs
 
 if TYPE_CHECKING:
     import xarray
 
-WORDS: dict[str, Any] = tomllib.loads(
-    (resources.files("umbilical.papers.rao2022") / "claims.toml").read_text(encoding="utf-8")
-)
+WORDS = read_data("claims.toml")
 """What is said of every claim, and the tolerances of numbers by their kind."""
 FOLLOWS = 0.1
 """A relative error below which we say that an estimate follows."""

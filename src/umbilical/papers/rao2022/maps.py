@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from umbilical import Study, load, sweep
-from umbilical.papers.rao2022.experiments import ARMS, BELIEVED, BOX, OBSERVER, OBSERVERS, RATES, START, preset
+from umbilical.papers.rao2022.experiments import ARMS, BELIEVED, BOX, OBSERVER, OBSERVERS, RATES, START, UPPER, preset
 from umbilical.papers.rao2022.progress import Progress, parts
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ FACTORS = (1.2, 0.8)
 EXACT = 1.0 / sum(FACTORS)
 """kappa_0 that delivers what is commanded, rad2/(N s2)."""
 BOXED = "boxed"
-RIM = BOX["control.allocation.upper"][0]
+RIM = BOX[UPPER][0]
 PRESET_RATES = (0.1, 100.0, 100.0)
 GAIN_CASES = ("none", "dead")
 

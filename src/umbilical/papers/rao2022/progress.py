@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import accumulate
 
 Progress = Callable[[float], None]
 
@@ -15,16 +17,11 @@ def parts(progress: Progress | None, shares: Sequence[float]) -> list[Progress]:
     >>> first(0.5), second(1.0), seen
     (None, None, [0.125, 1.0])
     """
-    total, begin, found = sum(shares), 0.0, []
-    for share in shares:
-        found.append(_part(progress, begin / total, share / total))
-        begin += share
-    return found
+    total, begins = sum(shares), accumulate(shares, initial=0.0)
+    pairs = zip(begins, shares, strict=False)
+    return [partial(_advance, progress, begin / total, share / total) for begin, share in pairs]
 
 
-def _part(progress: Progress | None, begin: float, share: float) -> Progress:
-    def advance(done: float) -> None:
-        if progress:
-            progress(begin + share * done)
-
-    return advance
+def _advance(progress: Progress | None, begin: float, share: float, done: float) -> None:
+    if progress:
+        progress(begin + share * done)

@@ -45,7 +45,7 @@ class Proofs(NamedTuple):
     unstable_from: float
 
 
-def prove(scenario: Scenario) -> Proofs:
+def proofs_of(scenario: Scenario) -> Proofs:
     """Everything, for a scenario with the boundary law and a winch that moves."""
     winch = scenario.to_dict()["winch"]
     shortest, longest = sorted((winch["start_length"], winch["end_length"]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -16,7 +16,7 @@ from umbilical.papers.rao2022.figures.style import RESOLUTION
 from umbilical.papers.rao2022.ledger import Evidence, Finding
 from umbilical.papers.rao2022.maps import MAPS, SCANS, compute_maps
 from umbilical.papers.rao2022.progress import Progress, parts
-from umbilical.papers.rao2022.proofs import prove
+from umbilical.papers.rao2022.proofs import proofs_of
 from umbilical.papers.rao2022.regions import edges
 from umbilical.papers.rao2022.tables import to_csv
 from umbilical.plots.figure import render
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 REPORT = "report.html"
 KINDS = ("png", "pdf", "nc", "csv")
 """Files of every figure."""
-Drawn = tuple[dict[str, bytes], bytes]
-"""A figure's files by ending, and it as SVG."""
 
 
 class Shown(NamedTuple):
@@ -104,13 +102,13 @@ def reproduce(
     runs = run_experiments(needed(pictures) if names else tuple(EXPERIMENTS), running)
     found = compute_maps(scans, scanning)
     findings = () if names else judge_claims(evidence(runs, found, edging))
-    return Reproduction(runs, found, show_all(pictures, runs, found, processes, drawing), findings)
+    return Reproduction(runs, found, show_pictures(pictures, runs, found, processes, drawing), findings)
 
 
 def evidence(runs: Runs, scans: Mapping[str, xarray.Dataset], progress: Progress | None = None) -> Evidence:
     """What claims are judged by, from runs and scans, with the edges of stability looked for."""
     gain, maps = scans["gain"], {name: scans[name] for name in MAPS if name in scans}
-    return Evidence(runs, gain, edges(gain, progress), maps, prove(runs[cell("none", "without")].scenario))
+    return Evidence(runs, gain, edges(gain, progress), maps, proofs_of(runs[cell("none", "without")].scenario))
 
 
 def run_experiments(names: Sequence[str], progress: Progress | None = None) -> Runs:
@@ -121,34 +119,28 @@ def run_experiments(names: Sequence[str], progress: Progress | None = None) -> R
     return {name: found[name] for name in names}
 
 
-def show_all(
-    pictures: Sequence[Picture], runs: Runs, scans: Mapping[str, xarray.Dataset], processes: int, progress: Progress
+def show_pictures(
+    pictures: Sequence[Picture],
+    runs: Runs,
+    scans: Mapping[str, xarray.Dataset],
+    processes: int = 1,
+    progress: Progress | None = None,
 ) -> tuple[Shown, ...]:
-    """All figures with their data; drawing takes as long as running, so several processes share it."""
+    """Figures with their data; drawing takes as long as running, so several processes share it."""
     data = [picture.data(runs, scans) for picture in pictures]
     with engines.processes(processes) if processes > 1 else engines.threads(1) as pool:
         drawn = in_order(draw, list(zip((picture.name for picture in pictures), data, strict=True)), progress, pool)
     return tuple(Shown(picture, one, *files) for picture, one, files in zip(pictures, data, drawn, strict=True))
 
 
-def show(picture: Picture, runs: Runs, scans: Mapping[str, xarray.Dataset]) -> Shown:
-    """One figure with its data, as the bytes of its files."""
-    data = picture.data(runs, scans)
-    return Shown(picture, data, *draw((picture.name, data)))
-
-
-def draw(named: tuple[str, xarray.Dataset]) -> Drawn:
+def draw(named: tuple[str, xarray.Dataset]) -> tuple[dict[str, bytes], bytes]:
     """The files by ending of the figure of a name and its data, and the figure as SVG for the report."""
     name, data = named
     figure = PICTURES[name].draw(data)
     figure.draw_without_rendering()
     figure.set_layout_engine(None)  # laid out once; the three renderings then only draw
-    contents = {
-        "png": render(figure, "png", dpi=RESOLUTION),
-        "pdf": render(figure, "pdf", dpi=RESOLUTION),
-        "nc": to_netcdf(data),
-        "csv": to_csv(data),
-    }
+    contents = {kind: render(figure, kind, dpi=RESOLUTION) for kind in ("png", "pdf")}
+    contents |= {"nc": to_netcdf(data), "csv": to_csv(data)}
     return contents, render(figure, "svg", dpi=RESOLUTION // 2)
 
 
@@ -158,7 +150,7 @@ def targets(pictures: Sequence[Picture], folder: Path, *, report: bool) -> list[
     return [*found, folder / REPORT] if report else found
 
 
-def write(
+def write_files(
     found: Reproduction, folder: Path, report: Callable[[Reproduction], str], *, force: bool = False
 ) -> dict[str, Any]:
     """Write figures, data and, if there are findings, the report; paths by figure and kind.
@@ -166,14 +158,10 @@ def write(
     Raises:
         OutputError: a file exists and ``force`` is false, or the folder cannot be written to.
     """
-    written: dict[str, Any] = {"figures": dict(_write_figures(found.shown, folder, force))}
+    contents = {(one.picture.name, kind): content for one in found.shown for kind, content in one.contents.items()}
+    written: dict[str, Any] = {"figures": {one.picture.name: {} for one in found.shown}}
+    for (name, kind), content in contents.items():
+        written["figures"][name][kind] = str(files.write(folder / f"{name}.{kind}", content, force=force))
     if found.findings:
         written["report"] = str(files.write(folder / REPORT, report(found).encode(), force=force))
     return written
-
-
-def _write_figures(shown: Sequence[Shown], folder: Path, force: bool) -> Iterator[tuple[str, dict[str, str]]]:
-    for one in shown:
-        name = one.picture.name
-        paths = {k: str(files.write(folder / f"{name}.{k}", c, force=force)) for k, c in one.contents.items()}
-        yield name, paths
