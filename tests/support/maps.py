@@ -16,6 +16,7 @@ def made_up_maps(diverging: float = 0.1) -> dict[str, xarray.Dataset]:
         return np.where(rng.uniform(size=size) < diverging, np.nan, rng.uniform(1e-3, 1.0, size))
 
     found = {
-        name: one.dataset(*(cells(tuple(map(len, one.dims.values()))) for _ in "xy")) for name, one in SCANS.items()
+        name: one.dataset(*(cells(tuple(len(values) for _, values, _ in one.coordinates.values())) for _ in "xy"))
+        for name, one in SCANS.items()
     }
     return {name: data.drop_vars("end_time") for name, data in found.items()}

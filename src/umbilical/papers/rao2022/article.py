@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
 
 from umbilical import load
 from umbilical.papers.rao2022.errata import COLUMNS, errata
 from umbilical.papers.rao2022.expected import Deviation
-from umbilical.papers.rao2022.experiments import EXPERIMENTS, cell
+from umbilical.papers.rao2022.experiments import EXPERIMENTS, Runs, cell
 from umbilical.papers.rao2022.figures import DOI, SOURCE, Picture
 from umbilical.papers.rao2022.ledger import Finding, Verdict
 from umbilical.papers.rao2022.maps import GRID
@@ -35,7 +34,7 @@ from umbilical.report import (
 
 HASH = 16
 """Digits of the hash of a file that are shown."""
-CLASSES = {Verdict.HOLDS: "holds", Verdict.CONDITIONAL: "part", Verdict.FAILS: "fails"}
+CLASSES = dict(zip(Verdict, ("holds", "part", "fails"), strict=True))
 
 
 def article(found: Reproduction, moved: list[Deviation]) -> str:
@@ -48,48 +47,34 @@ def article(found: Reproduction, moved: list[Deviation]) -> str:
     sections = (
         Section("ledger", "Claims", _ledger(found)),
         Section("figures", "Figures", _figures(found)),
-        Section("given", "What the paper gives", _given(found)),
-        Section("assumed", "What is assumed", _assumed(found)),
-        Section("runs", "What was run", _runs(found)),
+        Section("given", "What the paper gives", _given(found.runs)),
+        Section("assumed", "What is assumed", _assumed(found.runs)),
+        Section("runs", "What was run", _runs(found.runs)),
         Section("errata", "Errata", _errata()),
         Section("versions", "Versions", join([versions_table(), _hashes(found)])),
     )
-    return page(
-        "Vibration cascade control of a cable and its ROV: the paper, reproduced", _lead(found, moved), sections
-    )
+    title = "Vibration cascade control of a cable and its ROV: the paper, reproduced"
+    return page(title, join(_lead(found, moved)), sections)
 
 
-def _lead(found: Reproduction, moved: list[Deviation]) -> Html:
-    count = Counter(finding.verdict for finding in found.findings)
-    told = (
-        f"Of {len(found.findings)} statements {count[Verdict.HOLDS]} hold, {count[Verdict.CONDITIONAL]} under a "
-        "condition; "
-        f"not reproduced: {count[Verdict.FAILS]}."
-    )
+def _lead(found: Reproduction, moved: list[Deviation]) -> Iterator[Html]:
+    holds, part, fails = (sum(f.verdict is verdict for f in found.findings) for verdict in Verdict)
+    made = ". Made by ", element("code", "umbilical reproduce"), "; every number and every verdict is computed."
+    yield paragraph("Of ", SOURCE.removesuffix(DOI), link(DOI, f"https://doi.org/{DOI}"), *made)
+    told = f"{holds} hold, {part} under a condition; not reproduced: {fails}."
     check = "Every number is as published, within its tolerance." if not moved else "Not as published:"
-    return join(
-        [
-            paragraph(
-                "Of ",
-                SOURCE.removesuffix(DOI),
-                link(DOI, f"https://doi.org/{DOI}"),
-                ". Made by ",
-                element("code", "umbilical reproduce"),
-                "; every number and every verdict is computed.",
-            ),
-            paragraph(told, " ", check),
-            *([element("ul", *(element("li", str(one)) for one in moved))] if moved else []),
-            *([] if found.mapped else [paragraph("The maps were left out (--no-maps).")]),
-        ]
-    )
+    yield paragraph(f"Of {len(found.findings)} statements {told} {check}")
+    if moved:
+        yield element("ul", *(element("li", str(one)) for one in moved))
+    if not found.mapped:
+        yield paragraph("The maps were left out (--no-maps).")
 
 
 def _ledger(found: Reproduction) -> Html:
-    findings = found.findings
-    rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in findings]
+    rows = [(link(f.id, f"#{f.id}"), f.statement, _verdict(f)) for f in found.findings]
     ledger = table(("claim", "statement", "verdict"), rows, caption="The ledger", stacked=True)
     pictures = [one.picture for one in found.shown]
-    return join([ledger, *(_claim(finding, pictures) for finding in findings)])
+    return join([ledger, *(_claim(finding, pictures) for finding in found.findings)])
 
 
 def _verdict(finding: Finding) -> Html:
@@ -115,58 +100,44 @@ def _claim(finding: Finding, shown: Iterable[Picture]) -> Html:
 
 
 def _figures(found: Reproduction) -> Html:
-    coarse = paragraph(
+    coarse = (
         f"Maps run on {GRID['grid.elements']} elements, figures and all other numbers on the grid of their preset; the "
-        "tests compare both.",
-        class_="quiet",
+        "tests compare both."
     )
-    drawn = [
-        drawing(
-            one.svg,
-            one.picture.name,
-            one.picture.title,
-            one.picture.caption,
-            [f"{one.picture.name}.{kind}" for kind in KINDS],
-        )
-        for one in found.shown
-    ]
-    return join([coarse, element("div", *drawn, class_="figures")])
+    drawn = (
+        drawing(svg, one.name, one.title, one.caption, [f"{one.name}.{kind}" for kind in KINDS])
+        for one, _, _, svg in found.shown
+    )
+    return join([paragraph(coarse, class_="quiet"), element("div", *drawn, class_="figures")])
 
 
-def _given(found: Reproduction) -> Html:
-    runs = found.runs
-    fault = ("faults.1.start",)
+def _given(runs: Runs) -> Html:
     gains = ("control.law.position_gain", "control.law.velocity_gain")
+    plant, pd, fault = (runs[name].scenario for name in (cell("none", "without"), "pd", cell("stuck", "with")))
     return join(
         [
-            given_table(
-                runs[cell("none", "without")].scenario,
-                "Table 2 and section 4 of the paper, with our correction of units",
-            ),
-            given_table(runs["pd"].scenario, "Gains of the PD baseline", gains),
-            given_table(runs[cell("stuck", "with")].scenario, "The fault", fault),
+            given_table(plant, "Table 2 and section 4 of the paper, with our correction of units"),
+            given_table(pd, "Gains of the PD baseline", gains),
+            given_table(fault, "The fault", ("faults.1.start",)),
         ]
     )
 
 
-def _assumed(found: Reproduction) -> Html:
-    names = dict.fromkeys(EXPERIMENTS[name].preset for name in found.runs)
+def _assumed(runs: Runs) -> Html:
+    names = dict.fromkeys(EXPERIMENTS[name].preset for name in runs)
     words = paragraph(
         "What the paper does not print had to be chosen. The reasons are those of the presets: "
         f"{', '.join(names)}. A later one is named only with what it adds."
     )
-    return join([words, assumed_table([load(name) for name in names], "Assumed, in all presets that were run")])
+    return join([words, assumed_table(map(load, names), "Assumed, in all presets that were run")])
 
 
-def _runs(found: Reproduction) -> Html:
-    return runs_table(list(_rows(found)), "Experiments; an empty column of changes means the preset as it is")
-
-
-def _rows(found: Reproduction) -> Iterator[tuple]:
-    for name, run in found.runs.items():
-        experiment = EXPERIMENTS[name]
-        changes = ", ".join(f"{key} = {json.dumps(value)}" for key, value in experiment.changes.items())
-        yield experiment.what, experiment.preset, changes, run
+def _runs(runs: Runs) -> Html:
+    rows = [
+        (one.what, one.preset, ", ".join(f"{key} = {json.dumps(value)}" for key, value in one.changes.items()), run)
+        for one, run in ((EXPERIMENTS[name], run) for name, run in runs.items())
+    ]
+    return runs_table(rows, "Experiments; an empty column of changes means the preset as it is")
 
 
 def _hashes(found: Reproduction) -> Html:
@@ -178,7 +149,7 @@ def _hashes(found: Reproduction) -> Html:
 def _errata() -> Html:
     intro, sections = errata()
     tables = [
-        table(COLUMNS, [tuple(map(prose, entry)) for entry in entries], caption=title)
-        for title, entries in sections.items()
+        table(COLUMNS, [tuple(map(prose, entry)) for entry in found], caption=title)
+        for title, found in sections.items()
     ]
     return join([*(paragraph(prose(part)) for part in intro.split("\n\n")), *tables])

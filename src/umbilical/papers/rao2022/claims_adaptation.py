@@ -9,15 +9,12 @@ import numpy as np
 
 from umbilical import Run, Status
 from umbilical.papers.rao2022.experiments import FAR, GRIDS, OBSERVERS
-from umbilical.papers.rao2022.ledger import Evidence, Judged, short
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, short
 from umbilical.papers.rao2022.maps import BOXED, EXACT, RIM
 from umbilical.papers.rao2022.regions import better, diverged, preset_row, runaways, without_repeats
 
 if TYPE_CHECKING:
     import xarray
-
-HELPS = 0.5
-"""Ratio of peaks below which we say that adaptation clearly helps."""
 
 
 def a1(evidence: Evidence) -> Judged:
@@ -27,7 +24,10 @@ def a1(evidence: Evidence) -> Judged:
         run.metrics["tip_peak_after_fault"]
         for run in (*(runs[f"blind, dead, {name}"] for name in ("without", "misjudged", "with")), far, known)
     )
-    helps = [with_control < HELPS * without, far.status is Status.COMPLETED and far_peak < HELPS * known_peak]
+    helps = [
+        with_control < BOUNDS["helps"] * without,
+        far.status is Status.COMPLETED and far_peak < BOUNDS["helps"] * known_peak,
+    ]
     values = {
         "without_peak": without,
         "with_peak": with_control,
@@ -35,7 +35,6 @@ def a1(evidence: Evidence) -> Judged:
         "ratio_misjudged": with_control / misjudged,
         "far_end": far.end_time,
         "far": FAR,
-        "helps": HELPS,
         "far_when": _when(far),
         "known_when": _when(known),
         **dict.fromkeys(("mapped", "only"), bool(evidence.maps)),
@@ -48,7 +47,7 @@ def _where_it_helps(evidence: Evidence) -> dict[str, Any]:
     """Shares of two maps in which it is better, and the stuck values at which it clearly is, factors known exactly."""
     known = preset_row(evidence.maps["map-factors"], "stuck_value")
     values, peaks = known["stuck_value"].values, known["peak"].sel(observer="off")
-    lost = values[~(peaks.sel(arm="with") < HELPS * peaks.sel(arm="without")).values]
+    lost = values[~(peaks.sel(arm="with") < BOUNDS["helps"] * peaks.sel(arm="without")).values]
     low, high = lost[lost < 0.0].max(initial=-np.inf), lost[lost > 0.0].min(initial=np.inf)
     between = values[(values > low) & (values < high)]
     return {

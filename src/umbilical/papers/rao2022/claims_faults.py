@@ -9,22 +9,8 @@ import numpy as np
 from umbilical import Run
 from umbilical.papers.rao2022.claims_vibration import AT
 from umbilical.papers.rao2022.experiments import ARMS, CASES, FAULTS, OBSERVERS, Runs, cell
-from umbilical.papers.rao2022.ledger import FOLLOWS, Evidence, Judged, all_completed, relative_error
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, relative_error
 from umbilical.papers.rao2022.regions import diverged, reversal, runaways, without_repeats
-
-WORKS = 0.01
-"""Share of the uncontrolled peak below which we say that a loop works."""
-JUMP = 0.1
-"""Share of the healthy peak from which on we call an excess over the healthy run a jump."""
-FALLEN = 0.5
-"""Share of the largest excess below which the response has fallen."""
-SETTLED = 0.1
-"""Share of the largest excess below which its swing says that the response has settled."""
-PROMPT = 1.0
-"""s after a fault within which we call what happens at once."""
-LATER = 15.0
-"""s at the end of a run over which it is looked whether the response has fallen and settled: more than a period of
-the slowest load."""
 
 
 def c6(evidence: Evidence) -> Judged:
@@ -36,13 +22,12 @@ def c6(evidence: Evidence) -> Judged:
         "peak_ratio": peaks[0] / peaks[1],
         "rms_ratio": without["tip_rms"] / with_control["tip_rms"],
         "worst_left": max(peaks) / free,
-        "works": WORKS,
         "free": free,
         "without": peaks[0],
         "with_control": peaks[1],
         **reversal(evidence.gain),
     }
-    holds = max(values["peak_ratio"], values["rms_ratio"]) < 1.0 and values["worst_left"] < WORKS
+    holds = max(values["peak_ratio"], values["rms_ratio"]) < 1.0 and values["worst_left"] < BOUNDS["works"]
     return Judged(values, holds and not values["when"], holds)
 
 
@@ -76,14 +61,12 @@ def c7b(evidence: Evidence) -> Judged:
     runs = evidence.runs
     peaks = {arm: {c: runs[cell(c, arm)].metrics["tip_peak_after_fault"] for c in FAULTS} for arm in ARMS}
     soon, size, _, _ = _excess(runs)
-    jumps, stays = min(soon.values()) > JUMP, all_completed(runs[cell(case, "with")] for case in FAULTS)
+    jumps, stays = min(soon.values()) > BOUNDS["jump"], all_completed(runs[cell(case, "with")] for case in FAULTS)
     values = {
         "soon": soon,
         "size": size,
         "peak": peaks["with"],
         "ratio": {case: peaks["with"][case] / peaks["without"][case] for case in FAULTS},
-        "jump": JUMP,
-        "prompt": PROMPT,
         "stays": stays,
         "mapped": bool(evidence.maps),
         **(lost_in_maps(evidence) if evidence.maps else {}),
@@ -102,8 +85,8 @@ def lost_in_maps(evidence: Evidence) -> dict[str, dict[str, int]]:
 def c7c(evidence: Evidence) -> Judged:
     """With fault control the response falls again and settles."""
     _, _, left, swing = _excess(evidence.runs)
-    back = [case for case in FAULTS if left[case] < FALLEN and swing[case] < SETTLED]
-    values = {"left": left, "swing": swing, "back": back, "later": LATER, "fallen": FALLEN, "settled": SETTLED}
+    back = [case for case in FAULTS if left[case] < BOUNDS["fallen"] and swing[case] < BOUNDS["settled"]]
+    values = {"left": left, "swing": swing, "back": back}
     return Judged(values, len(back) == len(FAULTS), bool(back))
 
 
@@ -119,8 +102,8 @@ def _excess(runs: Runs) -> list[dict[str, float]]:
             run.scenario.faults[0].start,
             (run["tip_displacement"] - healthy) / float(abs(healthy).max()),
         )
-        late = difference.sel(time=slice(float(difference["time"][-1]) - LATER, None))
-        soon, largest = abs(difference).sel(time=slice(start, start + PROMPT)).max(), abs(difference).max()
+        late = difference.sel(time=slice(float(difference["time"][-1]) - BOUNDS["later"], None))
+        soon, largest = abs(difference).sel(time=slice(start, start + BOUNDS["prompt"])).max(), abs(difference).max()
         found.append([soon, largest, abs(late).max() / largest, (late.max() - late.min()) / largest])
     return [dict(zip(FAULTS, map(float, column), strict=True)) for column in zip(*found, strict=True)]
 
@@ -157,15 +140,14 @@ def c9(evidence: Evidence) -> Judged:
         "motor": motors,
         "motors": list(motors.values()),
         "d2_lag": fastest / float(np.hypot(fastest, gain)),
-        "d2_limit": FOLLOWS * gain / float(np.sqrt(1.0 - FOLLOWS**2)),
-        "D_limit": FOLLOWS * slow / float(np.sqrt(1.0 - FOLLOWS**2)),
-        "follows": FOLLOWS,
+        "d2_limit": BOUNDS["follows"] * gain / float(np.sqrt(1.0 - BOUNDS["follows"] ** 2)),
+        "D_limit": BOUNDS["follows"] * slow / float(np.sqrt(1.0 - BOUNDS["follows"] ** 2)),
         "fastest": fastest,
         "gain": gain,
         "slow": slow,
     }
     each = [error, *motors.values()]
-    return Judged(values, max(each) < FOLLOWS, min(each) < FOLLOWS)
+    return Judged(values, max(each) < BOUNDS["follows"], min(each) < BOUNDS["follows"])
 
 
 def c11(evidence: Evidence) -> Judged:

@@ -8,15 +8,13 @@ import numpy as np
 
 from umbilical import Run
 from umbilical.papers.rao2022.differentiation import EPS, RIVALS, Errors, crossing, errors, observer, rival
-from umbilical.papers.rao2022.ledger import Evidence, Judged
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged
 from umbilical.scenario.control import HighGainObserver
 
 SAMPLED = "proposed, no jump, sampled"
 NOISE = {"x2": np.geomspace(1e-7, 1e-2, 11), "z2": np.geomspace(1e-9, 1e-4, 11)}
 """Standard deviations of white noise per sample: of y(l,t), m, and of y_x(l,t), rad."""
 SIGNALS = {"x2": ("tip_displacement", "tip_velocity"), "z2": ("tip_slope", "tip_slope_rate")}
-CLEARLY = 0.99
-"""Ratio of errors below which one estimate beats another; nearer to 1 they are equal."""
 
 
 class Contest(NamedTuple):
@@ -30,7 +28,7 @@ class Contest(NamedTuple):
     def wins(self, name: str, against: str) -> np.ndarray:
         """Where the observer clearly errs less than a rival, shape (eps, noise)."""
         pairs = zip(self.ours[:-1], self.others[against][:-1], strict=True)
-        return np.array([one.at(NOISE[name]) < CLEARLY * other.at(NOISE[name]) for one, other in pairs])
+        return np.array([one.at(NOISE[name]) < BOUNDS["clearly"] * other.at(NOISE[name]) for one, other in pairs])
 
     def crossings(self) -> list[float]:
         """Noise from which on it errs less than the plain difference, at every eps."""
@@ -77,7 +75,6 @@ def c10(evidence: Evidence) -> Judged:
         "first": EPS[0],
         "last": EPS[-1],
         "levels": NOISE["x2"].size,
-        "clearly": CLEARLY,
     }
     everywhere = min(share for of in shares.values() for share in of.values()) == 1.0
     return Judged(values, everywhere, max(shares["difference"].values()) > 0.0)

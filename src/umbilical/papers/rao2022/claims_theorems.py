@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical import Run
 from umbilical.papers.rao2022.experiments import ARMS, CASES, cell
-from umbilical.papers.rao2022.ledger import Evidence, Judged, all_completed, window_peak
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, window_peak
 from umbilical.papers.rao2022.motor_error import (
     DECADES,
     decade_times,
@@ -23,9 +23,6 @@ from umbilical.plant import signals
 from umbilical.scenario.control import MotorLoop
 
 HEALTHY = cell("none", "without")
-SHRINKS = 0.5
-"""Ratio of the last decade's time to the one before below which a decay ends in finite time: for e' = -|e|^s with
-s < 1 it is 10^(s - 1)."""
 
 
 def t1(evidence: Evidence) -> Judged:
@@ -116,9 +113,8 @@ def t2b(evidence: Evidence) -> Judged:
         "sign_time": sign_time(loop),
         "late_error": max(map(_late_error, _runs(evidence))),
         "decades": DECADES,
-        "shrinks": SHRINKS,
     }
-    return Judged(values, last / before < SHRINKS)
+    return Judged(values, last / before < BOUNDS["shrinks"])
 
 
 def t3(evidence: Evidence) -> Judged:

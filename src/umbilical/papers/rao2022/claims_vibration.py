@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from umbilical import Run
 from umbilical.papers.rao2022.experiments import Runs, cell
-from umbilical.papers.rao2022.ledger import FOLLOWS, Evidence, Judged, relative_error, window_peak
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, relative_error, window_peak
 
 PROPOSED = cell("none", "without")
 AT = ("quarter", "mid", "three_quarter", "tip")
 """Places at which metrics are taken."""
-SIGNIFICANT = 0.1
-"""A ratio below which we call an improvement significant: an order of magnitude."""
 
 
 def c1(evidence: Evidence) -> Judged:
@@ -91,11 +89,10 @@ def c4(evidence: Evidence) -> Judged:
     more = {
         "peak_ratio_quarter": quarter,
         "peak_ratio_three_quarter": three_quarter,
-        "significant": SIGNIFICANT,
-        "blind": values["peak_ratio_blind"] < SIGNIFICANT,
+        "blind": values["peak_ratio_blind"] < BOUNDS["significant"],
     }
     worse = max(values["peak_ratio"], values["rms_ratio"])
-    return Judged(values | more, worse < SIGNIFICANT, worse < 1.0)
+    return Judged(values | more, worse < BOUNDS["significant"], worse < 1.0)
 
 
 def c5(evidence: Evidence) -> Judged:
@@ -109,13 +106,12 @@ def c5(evidence: Evidence) -> Judged:
         "z2_error": z2,
         "z2_error_smooth": _error_of(evidence.runs["proposed, no jump"], "tip_slope_rate"),
         "lag": lag,
-        "limit": FOLLOWS / lag,
-        "x2": x2 < FOLLOWS,
-        "z2": z2 < FOLLOWS,
-        "follows": FOLLOWS,
+        "limit": BOUNDS["follows"] / lag,
+        "x2": x2 < BOUNDS["follows"],
+        "z2": z2 < BOUNDS["follows"],
         "interval": run.scenario.output.interval,
     }
-    return Judged(values, max(x2, z2) < FOLLOWS, min(x2, z2) < FOLLOWS)
+    return Judged(values, max(x2, z2) < BOUNDS["follows"], min(x2, z2) < BOUNDS["follows"])
 
 
 def _error_of(run: Run, name: str) -> float:

@@ -7,11 +7,10 @@ check of ``umbilical reproduce --check``, and the page docs/paper.md, whose numb
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from umbilical.papers.rao2022.experiments import read_data
 from umbilical.papers.rao2022.ledger import WORDS, Finding, Number
@@ -93,6 +92,7 @@ def _of_claim(finding: Finding, expected: Mapping[str, Any], complete: bool) -> 
 def _of_number(name: str, number: Number | None, entry: Mapping[str, Any]) -> Iterator[Deviation]:
     value = float(entry["value"])
     limit = float(entry["absolute"]) if "absolute" in entry else float(entry["relative"]) * abs(value)
-    if number is None or not np.isclose(number.value, value, rtol=0.0, atol=limit, equal_nan=True):
+    none = number is not None and math.isnan(number.value) and math.isnan(value)
+    if number is None or not (none or math.isclose(number.value, value, rel_tol=0.0, abs_tol=limit)):
         found = f"{number.value:.6g} {number.unit}" if number else "not computed"
         yield Deviation(name, found, f"{value:g}", f"{limit:.2g} off")

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 WORDS = read_data("claims.toml")
 """What is said of every claim, and the tolerances of numbers by their kind."""
-FOLLOWS = 0.1
-"""A relative error below which we say that an estimate follows."""
+BOUNDS: dict[str, float] = WORDS["bounds"]
+"""From which value on we say what we say."""
 
 
 class Verdict(Enum):
@@ -118,7 +118,7 @@ class Finding:
 
 def make_finding(name: str, judged: Judged) -> Finding:
     """What became of a claim, in its words."""
-    words, values = WORDS[name], dict(judged.values)
+    words, values = WORDS[name], {**BOUNDS, **judged.values}
     for key, ways in words.get("either", {}).items():
         values[key] = say(ways[not values[key]], values)
     told = {key: say(text, values) for key, text in words.items() if isinstance(text, str)}

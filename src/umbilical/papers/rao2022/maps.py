@@ -99,31 +99,25 @@ class Map:
         shares = parts(progress, [1.0] * len(places))
         found = [_cells(self.study(*place), shape, share) for place, share in zip(places, shares, strict=True)]
         cells = np.array(found).reshape(len(self.cases), len(self.arms), 2, *shape).transpose(2, 3, 0, 1, 4, 5)
-        return self.dataset(*cells.reshape(2, *map(len, self.dims.values())))
-
-    def dataset(self, peaks: np.ndarray, ends: np.ndarray) -> xarray.Dataset:
-        """Peaks and ends over observer, case where there are several, arm, y and x."""
-        import xarray
-
-        axes = {axis.name: axis.coordinate() for axis in (self.y, self.x) if axis}
-        dims = tuple(self.dims)
-        return xarray.Dataset(
-            {"peak": (dims, peaks, PEAK), "end_time": (dims, ends, END)},
-            self.dims | axes,
-            {"title": self.title, **self._at()},
-        )
+        return self.dataset(*cells.reshape(2, *(len(values) for _, values, _ in self.coordinates.values())))
 
     @property
-    def dims(self) -> dict[str, list[Any]]:
-        """Values along every dimension of its data."""
-        cases = {"case": list(self.cases)} if len(self.cases) > 1 else {}
-        axes = {axis.name: list(axis.values) for axis in (self.y, self.x) if axis}
-        return {"observer": list(OBSERVERS), **cases, "arm": list(self.arms), **axes}
+    def coordinates(self) -> dict[str, tuple[str, list[Any], dict[str, str]]]:
+        """Observer, case where there are several, arm, y and x, as xarray takes them."""
+        cases = {"case": self.cases} if len(self.cases) > 1 else {}
+        named = {"observer": OBSERVERS, **cases, "arm": self.arms}
+        axes = {axis.name: axis.coordinate() for axis in (self.y, self.x) if axis}
+        return {name: (name, list(values), {}) for name, values in named.items()} | axes
 
-    def _at(self) -> dict[str, str | float]:
-        """Which dimensions are the axes, and where the presets are on them."""
-        both = {"x": self.x, "y": self.y} if self.y else {}
-        return {key: axis.name for key, axis in both.items()} | {f"paper_{k}": axis.paper for k, axis in both.items()}
+    def dataset(self, peaks: np.ndarray, ends: np.ndarray) -> xarray.Dataset:
+        """Peaks and ends over the coordinates; in two dimensions it says which they are and where the presets are."""
+        import xarray
+
+        about: dict[str, Any] = {"title": self.title}
+        if self.y:
+            about |= {"x": self.x.name, "y": self.y.name, "paper_x": self.x.paper, "paper_y": self.y.paper}
+        dims = tuple(self.coordinates)
+        return xarray.Dataset({"peak": (dims, peaks, PEAK), "end_time": (dims, ends, END)}, self.coordinates, about)
 
 
 PEAK = {"units": "m", "long_name": "largest |y(l,t)| after the fault; none where diverged", "symbol": "|y(l,t)|"}
