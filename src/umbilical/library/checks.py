@@ -14,7 +14,6 @@ from umbilical.control.outer.table import LAWS
 from umbilical.library import inherited
 from umbilical.plant.checks import equipment, motion, seas, sizes, statics, steps, stretch, timeline, water, weights
 from umbilical.plant.checks import rope as of_a_rope
-from umbilical.plant.forces.table import FORCES
 
 Check = Callable[..., Any]
 
@@ -80,7 +79,6 @@ CHECKS: tuple[Check, ...] = (
     steps.motors,
     timeline.marks,
     equipment.rope_is_read,
-    *(check for force in FORCES for check in force.checks),
 )
 
 OF_THE_STRING = (

@@ -16,8 +16,6 @@ from umbilical.plant.exogenous import current_at, profile
 from umbilical.plant.forces.body_drag import force as body_force
 from umbilical.plant.forces.body_drag import make as make_body_drag
 from umbilical.plant.forces.drag import make as make_drag
-from umbilical.plant.forces.force import OperatingPoint
-from umbilical.plant.layout import positions
 from umbilical.plant.signals import evaluate
 from umbilical.plant.top import top_at, vessel_at
 from umbilical.relations.tension import hanging_of, net_gravity, tension
@@ -85,10 +83,3 @@ def _from_below(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
     """Integral over sigma from each position to 1, by trapezoids, same shape."""
     pieces = 0.5 * (values[1:] + values[:-1]) * np.diff(sigma)
     return np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
-
-
-def operating_point(scenario: Scenario, time: float = 0.0, tip: float | None = None) -> OperatingPoint:
-    """Where forces are linearised: the equilibrium at the nodes, arguments as for :func:`equilibrium`."""
-    found, sigma = equilibrium(scenario, time, tip), positions(scenario.grid.elements)
-    water = np.interp(sigma, found.sigma, found.water)
-    return OperatingPoint(found.length, found.slope_at(sigma), water)

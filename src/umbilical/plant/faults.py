@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import singledispatch
 from typing import Literal
 
 import numpy as np
@@ -87,44 +86,23 @@ def _switches(fault: Intermittent, until: float) -> Array:
     return np.stack([come, come + fault.duty * fault.cycle], axis=-1).ravel()
 
 
-@singledispatch
 def _share(fault: Fault, t: Array) -> Array | float:
-    raise TypeError(f"not a fault: {fault!r}")
+    match fault:
+        case Partial() | Intermittent():
+            return fault.effectiveness
+        case Dead() | Stuck():
+            return 0.0
+        case Ramp():
+            return 1.0 + (fault.effectiveness - 1.0) * np.clip((t - fault.start) / fault.over, 0.0, 1.0)
 
 
-@_share.register(Partial)
-@_share.register(Intermittent)
-def _(fault: Partial | Intermittent, t: Array) -> Array | float:
-    return fault.effectiveness
-
-
-@_share.register(Dead)
-@_share.register(Stuck)
-def _(fault: Dead | Stuck, t: Array) -> Array | float:
-    return 0.0
-
-
-@_share.register
-def _(fault: Ramp, t: Array) -> Array | float:
-    return 1.0 + (fault.effectiveness - 1.0) * np.clip((t - fault.start) / fault.over, 0.0, 1.0)
-
-
-@singledispatch
 def _instants(fault: Fault, duration: float) -> Iterable[float]:
-    return _ends(fault)
-
-
-@_instants.register
-def _(fault: Ramp, duration: float) -> Iterable[float]:
-    full = fault.start + fault.over
-    return [*_ends(fault), full] if fault.end is None or full < fault.end else _ends(fault)
-
-
-@_instants.register
-def _(fault: Intermittent, duration: float) -> Iterable[float]:
+    ends = [fault.start] if fault.end is None else [fault.start, fault.end]
     until = duration if fault.end is None else min(duration, fault.end)
-    return [*_ends(fault), *(switch for switch in _switches(fault, until) if switch <= until)]
-
-
-def _ends(fault: Fault) -> list[float]:
-    return [fault.start] if fault.end is None else [fault.start, fault.end]
+    match fault:
+        case Ramp() if fault.end is None or fault.start + fault.over < fault.end:
+            return [*ends, fault.start + fault.over]
+        case Intermittent():
+            return [*ends, *(switch for switch in _switches(fault, until) if switch <= until)]
+        case _:
+            return ends

@@ -8,7 +8,6 @@ instantaneous surface, and nothing claimed of the splash zone.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -24,8 +23,6 @@ from umbilical.sea.waves import wave_number
 STEP = 0.1
 """s; the cubics miss w^4 h^4/384 of a wave, 7e-5 at 4 rad/s."""
 LEVELS = 32
-ALONG, ACROSS, UP = range(3)
-"""Directions: in the cable's plane, to the left of it, and up."""
 VELOCITY, RATE = range(2)
 _BLOCK, _KEPT = 512, 8
 _LEFT, _CLOSER = 0.01, 10.0
@@ -142,7 +139,7 @@ class Orbits:
         self._amplitude = np.stack([part[:, None] * decay for part in parts[:directions]], axis=1)
         turns = np.outer(np.arange(_BLOCK) * STEP, self._omega)
         self._turns = np.concatenate([np.cos(turns), -np.sin(turns)], axis=1)
-        self._blocks: OrderedDict[int, np.ndarray] = OrderedDict()
+        self._block = lru_cache(_KEPT)(self._tabulate)
 
     def rows(self, begin: float, end: float) -> tuple[int, np.ndarray]:
         """First instant in steps of :data:`STEP`, and rows from there to beyond ``end``, s, for :func:`look_at_waves`.
@@ -156,15 +153,9 @@ class Orbits:
         cut = first - numbers[0] * _BLOCK
         return first, found[cut : cut + last - first]
 
-    def _block(self, number: int) -> np.ndarray:
-        if number not in self._blocks:
-            self._blocks[number] = self._tabulate(number * _BLOCK * STEP)
-            if len(self._blocks) > _KEPT:
-                self._blocks.popitem(last=False)
-        return self._blocks[number]
-
-    def _tabulate(self, start: float) -> np.ndarray:
-        """Rows of the block that starts at an instant, s."""
+    def _tabulate(self, number: int) -> np.ndarray:
+        """Rows of a block."""
+        start = number * _BLOCK * STEP
         speed = self._amplitude * np.exp(1j * self._omega * start)[:, None, None]
         both = np.stack([speed, 1j * self._omega[:, None, None] * speed], axis=1)
         flat = both.reshape(self._omega.size, 2 * self._amplitude.shape[1] * LEVELS)

@@ -6,7 +6,8 @@ are the same (:mod:`umbilical.relations.instants`).
 
 from __future__ import annotations
 
-from functools import lru_cache, singledispatch
+from collections.abc import Callable
+from functools import lru_cache
 from itertools import pairwise
 from math import comb
 from typing import Any, Literal
@@ -40,10 +41,14 @@ def evaluate(signal: Signal, t: ArrayLike, side: Side = "right") -> Array:
     >>> evaluate(signal, [0.0, 1.0]).tolist(), evaluate(signal, 1.0, side="left").item()
     ([2.0, 5.0], 2.0)
     """
+    return _sum(_value, signal, t, side)
+
+
+def _sum(part: Callable[[Term, Array, Side], _Part], signal: Signal, t: ArrayLike, side: Side) -> Array:
     instants = np.asarray(t, dtype=np.float64)
     total = np.zeros(instants.shape)
     for term in signal:
-        total += _value(term, instants, side)
+        total += part(term, instants, side)
     return total
 
 
@@ -62,11 +67,7 @@ def derivative(signal: Signal, t: ArrayLike, side: Side = "right") -> Array:
     >>> derivative((Sine(kind="sine", amplitude=3.0, frequency=2.0),), 0.0).item()
     6.0
     """
-    instants = np.asarray(t, dtype=np.float64)
-    total = np.zeros(instants.shape)
-    for term in signal:
-        total += _slope(term, instants, side)
-    return total
+    return _sum(_slope, signal, t, side)
 
 
 def jumps(signal: Signal) -> tuple[float, ...]:
@@ -173,97 +174,54 @@ def passed(instants: ArrayLike, t: Array, side: Side) -> NDArray[np.intp]:
     return np.searchsorted(marks - same if side == "right" else marks + same, t, side=side)
 
 
+@lru_cache(maxsize=64)
 def spline(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
     """Cubic spline (not-a-knot) through a table; built once per table."""
-    return _spline(times, values)
-
-
-@lru_cache(maxsize=64)
-def _spline(times: tuple[float, ...], values: tuple[float, ...]) -> Any:
     from scipy.interpolate import CubicSpline  # slow to import, and few scenarios have a table
 
     return CubicSpline(times, values)
 
 
-@singledispatch
 def _value(term: Term, t: Array, side: Side) -> _Part:
-    raise TypeError(f"not a term of a signal: {term!r}")
+    match term:
+        case Constant():
+            return term.value
+        case Sine():
+            return term.amplitude * np.sin(term.frequency * t + term.phase)
+        case Bell():
+            with np.errstate(over="ignore"):  # far from the centre the power overflows and the bell is 0
+                return term.amplitude / (1.0 + _square(t, term) ** term.exponent)
+        case Step():
+            return term.value * reached(t, term.time, side)
+        case Pulse():
+            return term.value * (reached(t, term.start, side) & ~reached(t, term.end, side))
+        case Table():
+            return _linear(term, t, side) if term.interpolation == "linear" else curve_of(term)(t)
+        case Waves():
+            return regular.waves(term, t)
 
 
-@_value.register
-def _(term: Constant, t: Array, side: Side) -> _Part:
-    return term.value
-
-
-@_value.register
-def _(term: Sine, t: Array, side: Side) -> _Part:
-    return term.amplitude * np.sin(term.frequency * t + term.phase)
-
-
-@_value.register
-def _(term: Bell, t: Array, side: Side) -> _Part:
-    with np.errstate(over="ignore"):  # far from the centre the power overflows and the bell is 0
-        return term.amplitude / (1.0 + _square(t, term) ** term.exponent)
-
-
-@_value.register
-def _(term: Step, t: Array, side: Side) -> _Part:
-    return term.value * reached(t, term.time, side)
-
-
-@_value.register
-def _(term: Pulse, t: Array, side: Side) -> _Part:
-    return term.value * (reached(t, term.start, side) & ~reached(t, term.end, side))
-
-
-@_value.register
-def _(term: Table, t: Array, side: Side) -> _Part:
-    if term.interpolation == "linear":
-        return _linear(term, t, side)
-    return curve_of(term)(t)
-
-
-@_value.register
-def _(term: Waves, t: Array, side: Side) -> _Part:
-    return regular.waves(term, t)
-
-
-@singledispatch
 def _slope(term: Term, t: Array, side: Side) -> _Part:
-    return 0.0  # constants, and steps and pulses between their jumps
-
-
-@_slope.register
-def _(term: Sine, t: Array, side: Side) -> _Part:
-    return term.amplitude * term.frequency * np.cos(term.frequency * t + term.phase)
-
-
-@_slope.register
-def _(term: Bell, t: Array, side: Side) -> _Part:
-    # With u = |q|^(2b) the slope is -A u' / (1 + u)^2, u' = 2b u / (q width); at q = 0 and far away that is 0.
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        u = _square(t, term) ** term.exponent
-        slope = -2.0 * term.amplitude * term.exponent * u / ((t - term.center) * (1.0 + u) ** 2)
-    return np.where(np.isfinite(slope), slope, 0.0)
+    match term:
+        case Sine():
+            return term.amplitude * term.frequency * np.cos(term.frequency * t + term.phase)
+        case Bell():
+            # With u = |q|^(2b) the slope is -A u' / (1 + u)^2, u' = 2b u / (q width); at q = 0 and far away that is 0.
+            with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+                u = _square(t, term) ** term.exponent
+                slope = -2.0 * term.amplitude * term.exponent * u / ((t - term.center) * (1.0 + u) ** 2)
+            return np.where(np.isfinite(slope), slope, 0.0)
+        case Waves():
+            return regular.waves(term, t, 1)
+        case Table():
+            return _linear_slope(term, t, side) if term.interpolation == "linear" else curve_of(term)(t, 1)
+        case _:
+            return 0.0  # constants, and steps and pulses between their jumps
 
 
 def _square(t: Array, term: Bell) -> Array:
     q = (t - term.center) / term.width
     return q * q
-
-
-@_slope.register
-def _(term: Waves, t: Array, side: Side) -> _Part:
-    return regular.waves(term, t, 1)
-
-
-@_slope.register
-def _(term: Table, t: Array, side: Side) -> _Part:
-    if term.interpolation != "linear":
-        return curve_of(term)(t, 1)
-    steps = np.diff(term.times)
-    slopes = np.concatenate([[0.0], np.diff(term.values) / np.where(steps > 0.0, steps, 1.0), [0.0]])
-    return slopes[passed(term.times, t, side)]
 
 
 def curve_of(term: Table) -> Any:
@@ -287,24 +245,22 @@ def _linear(term: Table, t: Array, side: Side) -> Array:
     return found
 
 
-@singledispatch
+def _linear_slope(term: Table, t: Array, side: Side) -> Array:
+    steps = np.diff(term.times)
+    slopes = np.concatenate([[0.0], np.diff(term.values) / np.where(steps > 0.0, steps, 1.0), [0.0]])
+    return slopes[passed(term.times, t, side)]
+
+
 def _instants(term: Term) -> tuple[float, ...]:
-    return ()
-
-
-@_instants.register
-def _(term: Step) -> tuple[float, ...]:
-    return (term.time,)
-
-
-@_instants.register
-def _(term: Pulse) -> tuple[float, ...]:
-    return (term.start, term.end)
-
-
-@_instants.register
-def _(term: Table) -> tuple[float, ...]:
-    return term.times if term.interpolation == "linear" else ()
+    match term:
+        case Step():
+            return (term.time,)
+        case Pulse():
+            return term.start, term.end
+        case Table(interpolation="linear"):
+            return term.times
+        case _:
+            return ()
 
 
 def table_jumps(signal: Signal) -> tuple[float, ...]:

@@ -15,7 +15,6 @@ winch; it is worked out every :data:`_EVERY` s and linear between.
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -83,27 +82,28 @@ def stretching(
 
     ``law`` and the heave's signals must be sound.
     """
-    if cable.axial_stiffness is None or not heaving(environment):
-        return None
     known: Any = (law, environment, cable, payload, duration)  # frozen records have a hash
     found = _stretching(*known)
-    return found if found.omega.size and found.shortest <= NEAR * found.period else None
+    return found if found and found.shortest <= NEAR * found.period else None
 
 
 def difference(
     law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float
 ) -> Difference | None:
     """How far both ways are apart; None where the stiffness is not known or no regular wave heaves."""
-    if cable.axial_stiffness is None or not heaving(environment):
-        return None
     known: Any = (law, environment, cable, payload, duration)
     found = _stretching(*known)
-    return found.difference() if found.omega.size else None
+    return found.difference() if found else None
 
 
 @lru_cache(maxsize=8)
-def _stretching(law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float) -> Stretching:
-    return Stretching(law, environment, cable, payload, duration)
+def _stretching(
+    law: Winch, environment: Environment, cable: Cable, payload: Payload, duration: float
+) -> Stretching | None:
+    if cable.axial_stiffness is None or not heaving(environment):
+        return None
+    found = Stretching(law, environment, cable, payload, duration)
+    return found if found.omega.size else None
 
 
 class Stretching:
@@ -119,7 +119,7 @@ class Stretching:
         self._turns = np.concatenate([np.cos(turns), -np.sin(turns)], axis=1)
         self.longest = float(top_at(law, np.linspace(0.0, duration, _INSTANTS)).length.max())
         self._answers: dict[tuple[float, float], _Answer] = {}
-        self._blocks: OrderedDict[int, np.ndarray] = OrderedDict()
+        self._block = lru_cache(_KEPT)(self._tabulate)
 
     @property
     def period(self) -> float:
@@ -199,27 +199,21 @@ class Stretching:
         known, which = np.unique(number, return_inverse=True)
         rows, step = np.array([self._block(int(k)) for k in known]), place - number * _STEPS
         left, right = rows[which, step], rows[which, step + 1]
-        found = [
-            [regular.quintic(left[:, part, n : n + 3], right[:, part, n : n + 3], share) for part in range(2)]
-            for n in range(2)
-        ]
-        return np.reshape(found, (2, 2, *t.shape))
+        ends = [(left[:, part, n : n + 3], right[:, part, n : n + 3]) for n in range(2) for part in range(2)]
+        return np.reshape([regular.quintic(*pair, share) for pair in ends], (2, 2, *t.shape))
 
-    def _block(self, number: int) -> np.ndarray:
-        """Derivatives 0 to 3 of both at the instants of a block, shape (instants, 2, 4)."""
-        if number not in self._blocks:
-            self._blocks[number] = self._tabulate(number * _EVERY)
-            if len(self._blocks) > _KEPT:
-                self._blocks.popitem(last=False)
-        return self._blocks[number]
+    def _tabulate(self, number: int) -> np.ndarray:
+        """``(c0 + q (c1 - c0)) e^{i w t}``, q from 0 to 1 along the block, less mean drag, with three derivatives.
 
-    def _tabulate(self, start: float) -> np.ndarray:
-        """``(c0 + q (c1 - c0)) e^{i w t}``, q from 0 to 1 along the block, its derivatives, less mean drag."""
+        At the instants of a block, shape (instants, 2, 4).
+        """
+        start = number * _EVERY
         before, after = self._answer(start), self._answer(start + _EVERY)
         turned = np.exp(1j * self.omega * start)
         fixed = self._sums(before.amplitude * turned)
         if after is before:
-            return fixed - _constant(before.drag)
+            fixed[:, _FOOT, 0] -= before.drag
+            return fixed
         grows = self._sums((after.amplitude - before.amplitude) * turned / _EVERY)
         past = np.arange(_STEPS + 1.0) * regular.STEP
         fixed += past[:, None, None] * grows
@@ -232,13 +226,6 @@ class Stretching:
         """Sums over the waves of amplitudes (2, waves), and their derivatives, shape (instants, 2, 4)."""
         orders = (amplitude[:, None, :] * (1j * self.omega) ** _BINOMIAL[:, None]).reshape(8, -1).T
         return (self._turns @ np.concatenate([orders.real, orders.imag])).reshape(-1, 2, 4)
-
-
-def _constant(drag: float) -> np.ndarray:
-    """The mean drag, which has no derivatives, shape (2, 4)."""
-    found = np.zeros((2, 4))
-    found[_FOOT, 0] = drag
-    return found
 
 
 def _regular(environment: Environment) -> tuple[np.ndarray, np.ndarray]:

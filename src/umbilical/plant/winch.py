@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
 from typing import NamedTuple
 
 import numpy as np
@@ -58,25 +57,30 @@ def jumps(winch: Winch) -> tuple[float, ...]:
     return tuple(sorted(set(_instants(winch))))
 
 
-@singledispatch
 def _motion(winch: Winch, t: Array, side: Side) -> WinchMotion:
-    raise TypeError(f"not a winch law: {winch!r}")
-
-
-@_motion.register
-def _(winch: ConstantLength, t: Array, side: Side) -> WinchMotion:
     zero = np.zeros(t.shape)
-    return WinchMotion(np.full(t.shape, winch.length), zero, zero, zero)
+    match winch:
+        case ConstantLength():
+            return WinchMotion(np.full(t.shape, winch.length), zero, zero, zero)
+        case ConstantSpeed():
+            return WinchMotion(winch.start_length + winch.speed * t, np.full(t.shape, winch.speed), zero, zero)
+        case Quintic():
+            return _quintic(winch, t, side)
+        case Trapezoid():
+            return _trapezoid(winch, t, side)
+        case Cosine():
+            amplitude, frequency = winch.amplitude, winch.frequency
+            cosine, sine = amplitude * np.cos(frequency * t), amplitude * np.sin(frequency * t)
+            length = winch.start_length + amplitude - cosine
+            return WinchMotion(length, frequency * sine, frequency**2 * cosine, -(frequency**3) * sine)
+        case TabulatedLength():
+            curve = spline(winch.times, winch.lengths)
+            thirds = 6.0 * curve.c[0]  # the third derivative is constant between knots
+            piece = np.clip(passed(winch.times, t, side) - 1, 0, len(winch.times) - 2)
+            return WinchMotion(curve(t), curve(t, 1), curve(t, 2), thirds[piece])
 
 
-@_motion.register
-def _(winch: ConstantSpeed, t: Array, side: Side) -> WinchMotion:
-    zero = np.zeros(t.shape)
-    return WinchMotion(winch.start_length + winch.speed * t, np.full(t.shape, winch.speed), zero, zero)
-
-
-@_motion.register
-def _(winch: Quintic, t: Array, side: Side) -> WinchMotion:
+def _quintic(winch: Quintic, t: Array, side: Side) -> WinchMotion:
     # A numpy number: absurdly short, its powers give infinities that the checks refuse, not an exception.
     way, time = winch.end_length - winch.start_length, np.float64(winch.duration)
     q = np.clip((t - winch.start) / time, 0.0, 1.0)
@@ -91,8 +95,7 @@ def _(winch: Quintic, t: Array, side: Side) -> WinchMotion:
     )
 
 
-@_motion.register
-def _(winch: Trapezoid, t: Array, side: Side) -> WinchMotion:
+def _trapezoid(winch: Trapezoid, t: Array, side: Side) -> WinchMotion:
     corners = np.array(_corners(winch))
     sign = np.sign(winch.end_length - winch.start_length)
     ramp, cruise, _ = np.diff(corners)
@@ -109,41 +112,16 @@ def _(winch: Trapezoid, t: Array, side: Side) -> WinchMotion:
     return WinchMotion(lengths[piece] + (v + a * dt / 2.0) * dt, v + a * dt, a, np.zeros(t.shape))
 
 
-@_motion.register
-def _(winch: Cosine, t: Array, side: Side) -> WinchMotion:
-    amplitude, frequency = winch.amplitude, winch.frequency
-    cosine, sine = amplitude * np.cos(frequency * t), amplitude * np.sin(frequency * t)
-    length = winch.start_length + amplitude - cosine
-    return WinchMotion(length, frequency * sine, frequency**2 * cosine, -(frequency**3) * sine)
-
-
-@_motion.register
-def _(winch: TabulatedLength, t: Array, side: Side) -> WinchMotion:
-    curve = spline(winch.times, winch.lengths)
-    last = len(winch.times) - 2
-    thirds = 6.0 * curve.c[0]  # the third derivative is constant between knots
-    piece = np.clip(passed(winch.times, t, side) - 1, 0, last)
-    return WinchMotion(curve(t), curve(t, 1), curve(t, 2), thirds[piece])
-
-
-@singledispatch
 def _instants(winch: Winch) -> tuple[float, ...]:
-    return ()
-
-
-@_instants.register
-def _(winch: Quintic) -> tuple[float, ...]:
-    return (winch.start, winch.start + winch.duration)
-
-
-@_instants.register
-def _(winch: Trapezoid) -> tuple[float, ...]:
-    return _corners(winch)
-
-
-@_instants.register
-def _(winch: TabulatedLength) -> tuple[float, ...]:
-    return winch.times
+    match winch:
+        case Quintic():
+            return winch.start, winch.start + winch.duration
+        case Trapezoid():
+            return _corners(winch)
+        case TabulatedLength():
+            return winch.times
+        case _:
+            return ()
 
 
 def _corners(winch: Trapezoid) -> tuple[float, float, float, float]:

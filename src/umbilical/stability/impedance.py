@@ -28,7 +28,6 @@ import numpy as np
 
 from umbilical.plant.current import speeds_at
 from umbilical.plant.exogenous import current_at
-from umbilical.plant.forces.force import OperatingPoint
 from umbilical.plant.forces.table import dampings, stiffness
 from umbilical.relations.tension import hanging_of, net_gravity, tension, tension_gain
 from umbilical.relations.water import line_inertia, payload_inertia
@@ -108,19 +107,19 @@ def hanging_cable(scenario: Scenario, length: float) -> FixedLengthCable:
     hung, net = hanging_of(cable, payload, environment), net_gravity(environment.gravity)
     sigma = np.linspace(0.0, 1.0, _POINTS)
     water = speeds_at(environment, length * sigma) * float(current_at(environment, np.array(0.0))[0])
-    at = OperatingPoint(length, np.zeros(_POINTS), water)
-    damping = np.sum([np.broadcast_to(found, sigma.shape) for found in dampings(scenario, at, "cable")], axis=0)[::-1]
+    dampers = dampings(scenario, water, "cable")
+    damping = np.sum([np.broadcast_to(found, sigma.shape) for found in dampers], axis=0)[::-1]
     pieces = _pieces(damping, length) if np.ptp(damping) > 1e-9 * damping.max() else ()
     return FixedLengthCable(
         line_density=line_inertia(cable, payload, environment),
         damping=pieces[0][1] if pieces else float(damping[0]),
         payload_mass=payload_inertia(payload),
-        payload_damping=float(sum(dampings(scenario, at, "payload"))),
+        payload_damping=float(sum(dampings(scenario, water, "payload"))),
         tip_tension=tension(0.0, net, hung),
         weight=tension_gain(1.0, net, hung),
         length=length,
         pieces=pieces,
-        payload_spring=stiffness(scenario, at),
+        payload_spring=stiffness(scenario, water),
     )
 
 

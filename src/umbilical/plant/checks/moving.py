@@ -139,8 +139,8 @@ def wave_terms(moving: MovingCable, motion: Top) -> CableWaves:
     pulls = across(hung, density * added / inertia, motion.sink_speed)
     length, slip = possible(motion.length), added * motion.sink_speed / inertia
     slowest, fastest = smallest_tension(length, net, pulls), largest_tension(length, net, pulls)
-    speeds = (np.sqrt(np.maximum(pull, 0.0) / inertia) for pull in (slowest, fastest))
-    return CableWaves(*speeds, -slip, motion.speed - slip)
+    lowest, highest = (np.sqrt(np.maximum(pull, 0.0) / inertia) for pull in (slowest, fastest))
+    return CableWaves(lowest, highest, -slip, motion.speed - slip)
 
 
 def possible(length: np.ndarray) -> np.ndarray:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+import numpy as np
+
 from umbilical.compile import glue
-from umbilical.plant.forces.force import Decay, Force, OperatingPoint, fastest_current
+from umbilical.plant.forces.force import Decay, Force, fastest_current
 from umbilical.relations.water import in_water, payload_inertia
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Payload
@@ -31,10 +33,10 @@ def force(drag: BodyDrag, relative: float) -> float:
     return (drag.linear + drag.quadratic * abs(relative)) * relative
 
 
-def damping(scenario: Scenario, at: OperatingPoint) -> float:
+def damping(scenario: Scenario, water: np.ndarray) -> float:
     """``D_l + 2 D_q |u|``, N s/m."""
     drag = make(scenario)
-    return drag.linear + 2.0 * drag.quadratic * abs(float(at.water[-1]))
+    return drag.linear + 2.0 * drag.quadratic * abs(float(water[-1]))
 
 
 def decay(cable: Cable, payload: Payload, environment: Environment) -> Decay:

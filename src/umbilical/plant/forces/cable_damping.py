@@ -6,7 +6,7 @@ import numpy as np
 
 from umbilical.compile import fma, kernel, row_kernel
 from umbilical.plant.elements import W0, W1, W2
-from umbilical.plant.forces.force import Decay, Force, OperatingPoint
+from umbilical.plant.forces.force import Decay, Force
 from umbilical.relations.water import line_inertia
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Payload
@@ -44,7 +44,7 @@ def book(
         power[e] = new
 
 
-def damping(scenario: Scenario, at: OperatingPoint) -> float:
+def damping(scenario: Scenario, water: np.ndarray) -> float:
     """c, N s/m2, wherever it is."""
     return scenario.cable.damping
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.elements import W0, W1, W2
-from umbilical.plant.forces.force import Force
+from umbilical.plant.forces.force import Force, begin_work
 
 
 @kernel
@@ -28,9 +28,7 @@ def book(
     """``int f W`` of every element, W, as its new power; its work, J, for ``half`` the step with the old one."""
     n = power.size
     scale = length / (2.0 * n)
-    for e in range(n):
-        work[e] += half * power[e]
-        power[e] = 0.0
+    begin_work(power, work, half)
     for k in range(loads.size):
         p = profiles[k]
         for e in range(n):

@@ -38,14 +38,6 @@ def add(moved: Moved, inertia: float, rate: np.ndarray, change: np.ndarray) -> N
 
 
 @kernel
-def begin(power: np.ndarray, work: np.ndarray, half: float) -> None:
-    """First half of the work of every element; its new power starts from nothing."""
-    for e in range(power.size):
-        work[e] += half * power[e]
-        power[e] = 0.0
-
-
-@kernel
 def give(moved: Moved, x: np.ndarray, power: np.ndarray, change: np.ndarray, length: float) -> None:
     """``int (rho_w A_c + rho_a) u_t Wb`` of every element, W, on top of its new power."""
     n = power.size
@@ -54,13 +46,6 @@ def give(moved: Moved, x: np.ndarray, power: np.ndarray, change: np.ndarray, len
         weight = scale * (W0 if j == 0 or j == 4 else W1 if j == 1 or j == 3 else W2)
         for e in range(n):
             power[e] += weight * change[j, e] * x[j, n + e]
-
-
-@kernel
-def end(power: np.ndarray, work: np.ndarray, half: float) -> None:
-    """Second half of the work."""
-    for e in range(power.size):
-        work[e] += half * power[e]
 
 
 FORCE = Force("work_current")

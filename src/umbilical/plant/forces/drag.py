@@ -16,7 +16,7 @@ import numpy as np
 
 from umbilical.compile import kernel
 from umbilical.plant.elements import W0, W1, W2
-from umbilical.plant.forces.force import Decay, Force, OperatingPoint, fastest_current
+from umbilical.plant.forces.force import Decay, Force, add_power, begin_work, fastest_current
 from umbilical.relations.water import in_water, line_inertia
 from umbilical.scenario.environment import Environment
 from umbilical.scenario.hardware import Cable, Payload
@@ -62,9 +62,7 @@ def book(
     n = power.size
     scale, slides = length / (2.0 * n), (sinks - slip) / length
     along = drag.tangential * abs(sinks) * sinks / length
-    for e in range(n):
-        work[e] += half * power[e]
-        power[e] = 0.0
+    begin_work(power, work, half)
     for j in range(5):
         weight = scale * (W0 if j == 0 or j == 4 else W1 if j == 1 or j == 3 else W2)
         slope, velocity, flow = x[j, :n], x[j, n:], water[j]
@@ -74,13 +72,12 @@ def book(
             force = weight * (drag.normal * abs(relative) * relative - along * slope[e])
             power[e] += force * (velocity[e] - current)
             given[e] += force * current
-    for e in range(n):
-        work[e] += half * power[e]
+    add_power(work, power, half)
 
 
-def damping(scenario: Scenario, at: OperatingPoint) -> np.ndarray:
+def damping(scenario: Scenario, water: np.ndarray) -> np.ndarray:
     """``rho_w C_dn d |u_r|``, N s/m2, at the water's speed past the cable at rest; zero in still water."""
-    return 2.0 * make(scenario).normal * np.abs(at.water)
+    return 2.0 * make(scenario).normal * np.abs(water)
 
 
 def decay(cable: Cable, payload: Payload, environment: Environment) -> Decay:

@@ -2,30 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from umbilical.compile import row_kernel
+from umbilical.compile import kernel, row_kernel
 from umbilical.plant import orbital
 from umbilical.scenario.environment import Environment
-from umbilical.scenario.findings import Finding
 from umbilical.scenario.scenario import Scenario
-
-
-class OperatingPoint(NamedTuple):
-    """Where a force is linearised: at rest, with the winch stopped.
-
-    Attributes:
-        length: cable paid out, m.
-        slope: y_x at the nodes from vessel to ROV, shape (4 n + 1,).
-        water: speed of the water past the cable at rest, m/s, shape (4 n + 1,); the last is what passes the ROV.
-    """
-
-    length: float
-    slope: np.ndarray
-    water: np.ndarray
 
 
 class Decay(NamedTuple):
@@ -49,7 +34,7 @@ def no_decay(**_: Any) -> None:
     return
 
 
-def unchanged(scenario: Scenario, at: OperatingPoint) -> float:
+def unchanged(scenario: Scenario, water: np.ndarray) -> float:
     """A force that does not change with the velocity, or not with the displacement."""
     return 0.0
 
@@ -60,19 +45,25 @@ class Force(NamedTuple):
     Attributes:
         work: channel of its work.
         on: "cable" or "payload".
-        damping: minus its derivative by the velocity at an operating point: N s/m2 at the nodes of the cable, shape
-            (4 n + 1,) or a number; N s/m on the ROV.
+        damping: minus its derivative by the velocity of a cable at rest, the winch stopped: N s/m2 at places along the
+            cable, or a number; N s/m on the ROV. ``water`` passes at these places, m/s, last at the ROV.
         decay: the most it takes, from sections of a scenario by name; None where it takes nothing.
-        checks: across the fields of its record; parameters name the sections they read.
         stiffness: minus its derivative by the displacement of the ROV there, N/m; of a force on the ROV.
     """
 
     work: str
     on: str = "cable"
-    damping: Callable[[Scenario, OperatingPoint], Any] = unchanged
+    damping: Callable[[Scenario, np.ndarray], Any] = unchanged
     decay: Callable[..., Decay | None] = no_decay
-    checks: tuple[Callable[..., Iterator[Finding]], ...] = ()
-    stiffness: Callable[[Scenario, OperatingPoint], float] = unchanged
+    stiffness: Callable[[Scenario, np.ndarray], float] = unchanged
+
+
+@kernel
+def begin_work(power: np.ndarray, work: np.ndarray, half: float) -> None:
+    """First half of the work of every element; its new power starts from nothing."""
+    for e in range(power.size):
+        work[e] += half * power[e]
+        power[e] = 0.0
 
 
 @row_kernel

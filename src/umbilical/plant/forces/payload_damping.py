@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from umbilical.compile import glue
-from umbilical.plant.forces.force import Decay, Force, OperatingPoint
+from umbilical.plant.forces.force import Decay, Force
 from umbilical.relations.water import payload_inertia
 from umbilical.scenario.hardware import Payload
 from umbilical.scenario.scenario import Scenario
@@ -21,7 +23,7 @@ def power(coefficient: float, velocity: float) -> float:
     return -coefficient * velocity * velocity
 
 
-def damping(scenario: Scenario, at: OperatingPoint) -> float:
+def damping(scenario: Scenario, water: np.ndarray) -> float:
     """c_tip, N s/m, wherever it is."""
     return scenario.payload.damping
 

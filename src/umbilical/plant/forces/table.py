@@ -42,7 +42,7 @@ from umbilical.plant.forces import (
 from umbilical.plant.forces.body_drag import BodyDrag
 from umbilical.plant.forces.current import Moved
 from umbilical.plant.forces.drag import Drag
-from umbilical.plant.forces.force import Decay, OperatingPoint
+from umbilical.plant.forces.force import Decay, add_power, begin_work
 from umbilical.plant.layout import to_elements, zeros
 from umbilical.plant.orbital import Levels, levels_of, look_at_waves
 from umbilical.plant.seaway import heaving
@@ -52,19 +52,9 @@ from umbilical.scenario.hardware import Cable, Payload
 from umbilical.scenario.scenario import Scenario
 
 FORCES = (
-    given.THRUST,
-    given.PAYLOAD_FORCE,
-    payload_damping.FORCE,
-    vessel.FORCE,
-    cable_damping.FORCE,
-    cable_load.FORCE,
-    tension.FORCE,
-    drag.FORCE,
-    body_drag.FORCE,
-    current.FORCE,
-    added_mass.FORCE,
-    grid.FORCE,
-)
+    given.THRUST, given.PAYLOAD_FORCE, payload_damping.FORCE, vessel.FORCE, cable_damping.FORCE, cable_load.FORCE,
+    tension.FORCE, drag.FORCE, body_drag.FORCE, current.FORCE, added_mass.FORCE, grid.FORCE,
+)  # fmt: skip
 """Everything that does work on cable and ROV, in the order of result files."""
 
 WORKS = tuple(force.work for force in FORCES)
@@ -200,16 +190,9 @@ def flow_past(
 
 @glue
 def along_cable(
-    forces: Forces,
-    cable: CableConstants,
-    x: np.ndarray,
-    rate: np.ndarray,
-    loads: np.ndarray,
-    water: Flow,
-    moment: Moment,
-    outside: Exogenous,
-    wet: bool,
-) -> None:
+    forces: Forces, cable: CableConstants, x: np.ndarray, rate: np.ndarray, loads: np.ndarray, water: Flow,
+    moment: Moment, outside: Exogenous, wet: bool,
+) -> None:  # fmt: skip
     """Add the forces along the cable to the rates of a block, but for linear damping, which the step takes off."""
     inertia, length, slip = cable.line_inertia, moment.length, moment.slip
     if loads.size > 0:
@@ -236,19 +219,9 @@ def on_payload(forces: Forces, ends: Ends, water: Flow, wet: bool) -> float:
 
 @glue
 def book_along(
-    forces: Forces,
-    cable: CableConstants,
-    x: np.ndarray,
-    power: Along,
-    work: Along,
-    half: float,
-    moment: Moment,
-    outside: Exogenous,
-    last: LastTension,
-    loads: np.ndarray,
-    water: Flow,
-    wet: bool,
-) -> None:
+    forces: Forces, cable: CableConstants, x: np.ndarray, power: Along, work: Along, half: float, moment: Moment,
+    outside: Exogenous, last: LastTension, loads: np.ndarray, water: Flow, wet: bool,
+) -> None:  # fmt: skip
     """Works along the cable over a step whose ``half`` is given, s, element by element; 0 after a jump.
 
     The tension works only while it changes, or did at the start of the step.
@@ -266,28 +239,21 @@ def book_along(
         if foot != 0.0 or rise != 0.0 or last.slides:
             tension.book(cable.above, x, power.sliding, work.sliding, half, length, 0.5, foot, rise)
         last.slides = foot != 0.0 or rise != 0.0
-        current.begin(power.current, work.current, half)
+        begin_work(power.current, work.current, half)
         if forces.drag.acts:
             drag.book(
                 forces.drag, x, power.drag, work.drag, power.current, water.speed, half, length, sinks, slip
             )  # fmt: skip
         if outside.current_rate != 0.0 or forces.waves.deepest > 0.0:
             current.give(forces.moved, x, power.current, water.rate, length)
-        current.end(power.current, work.current, half)
+        add_power(work.current, power.current, half)
 
 
 @glue
 def book_at_ends(
-    forces: Forces,
-    cable: CableConstants,
-    ends: Ends,
-    works: EndWorks,
-    half: float,
-    moment: Moment,
-    outside: Exogenous,
-    water: Flow,
-    wet: bool,
-) -> None:
+    forces: Forces, cable: CableConstants, ends: Ends, works: EndWorks, half: float, moment: Moment,
+    outside: Exogenous, water: Flow, wet: bool,
+) -> None:  # fmt: skip
     """Works at ROV and vessel, ``half`` as in :func:`book_along`."""
     damped = payload_damping.power(forces.payload_damping, ends.tip_velocity)
     works.work_payload_damping += half * (works.power_payload_damping + damped)
@@ -302,15 +268,9 @@ def book_at_ends(
 
 @glue
 def book_water_at_payload(
-    forces: Forces,
-    cable: CableConstants,
-    ends: Ends,
-    works: EndWorks,
-    half: float,
-    moment: Moment,
-    outside: Exogenous,
-    water: Flow,
-) -> None:
+    forces: Forces, cable: CableConstants, ends: Ends, works: EndWorks, half: float, moment: Moment,
+    outside: Exogenous, water: Flow,
+) -> None:  # fmt: skip
     """What the water does to the ROV, as :func:`book_at_ends`."""
     last = water.speed.shape[1] - 1
     flow, velocity = water.speed[4, last], ends.tip_velocity
@@ -351,11 +311,11 @@ def decays(cable: Cable, payload: Payload, environment: Environment) -> Iterator
             yield found
 
 
-def dampings(scenario: Scenario, at: OperatingPoint, on: str) -> list[Any]:
-    """What every force ``on`` the "cable" (N s/m2) or the "payload" (N s/m) damps at an operating point."""
-    return [force.damping(scenario, at) for force in FORCES if force.on == on]
+def dampings(scenario: Scenario, water: np.ndarray, on: str) -> list[Any]:
+    """What every force ``on`` the "cable" (N s/m2) or the "payload" (N s/m) damps in water that passes, m/s."""
+    return [force.damping(scenario, water) for force in FORCES if force.on == on]
 
 
-def stiffness(scenario: Scenario, at: OperatingPoint) -> float:
-    """What all forces hold the ROV with at an operating point, N/m."""
-    return sum(force.stiffness(scenario, at) for force in FORCES)
+def stiffness(scenario: Scenario, water: np.ndarray) -> float:
+    """What all forces hold the ROV with in water that passes, N/m."""
+    return sum(force.stiffness(scenario, water) for force in FORCES)

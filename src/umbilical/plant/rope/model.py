@@ -113,27 +113,15 @@ def make_rope(
         cable.water_density, cable.diameter, cable.normal_drag, cable.tangential_drag, cable.added_mass,
         cable.strumming,
     )  # fmt: skip
-    rope = RopeConstants(
-        stiffness=cable.stiffness,
-        density=cable.density,
-        weight=cable.weight,
-        added=line.added,
-        displaced=line.displaced,
-        normal_drag=line.normal,
-        tangential_drag=line.tangential,
-        damping=cable.damping,
-        inertia=body.mass + vector_of(body.added_mass),
-        moved_water=body.displaced + vector_of(body.added_mass),
-        body_weight=body.weight,
-        body_damping=vector_of(body.damping),
-        body_drag=vector_of(body.drag),
-        body_friction=vector_of(body.friction),
-        above=above,
-        above_faces=faces,
-        profiles=np.zeros((0, 5, elements)) if profiles is None else profiles,
-        wet=False,
-    )
-    return rope._replace(wet=moving or bool(rope.added or rope.normal_drag or rope.tangential_drag))
+    added, damping, drag = vector_of(body.added_mass), vector_of(body.damping), vector_of(body.drag)
+    dragged = bool(line.added or line.normal or line.tangential)
+    return RopeConstants(
+        stiffness=cable.stiffness, density=cable.density, weight=cable.weight, added=line.added,
+        displaced=line.displaced, normal_drag=line.normal, tangential_drag=line.tangential, damping=cable.damping,
+        inertia=body.mass + added, moved_water=body.displaced + added, body_weight=body.weight, body_damping=damping,
+        body_drag=drag, body_friction=vector_of(body.friction), above=above, above_faces=faces,
+        profiles=np.zeros((0, 5, elements)) if profiles is None else profiles, wet=moving or dragged,
+    )  # fmt: skip
 
 
 class RopeModel:

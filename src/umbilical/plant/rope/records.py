@@ -153,25 +153,13 @@ class RopeState(NamedTuple):
 
 def make_rope_state(elements: int) -> RopeState:
     """A rope of no length at rest."""
-    n = elements
+    n, terms = elements, len(POWERS)
     return RopeState(
-        now=np.zeros((5, 6 * n)),
-        base=np.zeros((5, 6 * n)),
-        rate=np.zeros((5, 6 * n)),
-        pull=np.zeros((5, 3 * n)),
-        stretch=np.zeros((5, n)),
-        gradient=np.zeros((5, 9 * n)),
-        star=np.zeros((6, n + 1)),
-        flow=np.zeros((5, 6 * n)),
-        joints=np.zeros((3, n + 1)),
-        height=np.zeros((5, n)),
-        body=np.zeros((3, 3)),
-        body_flow=np.zeros(6),
-        outside=RopeOutside.many(1),
-        ends=RopeEnds.many(1),
-        power=np.zeros(len(POWERS)),
-        work=np.zeros(len(POWERS)),
-    )
+        now=np.zeros((5, 6 * n)), base=np.zeros((5, 6 * n)), rate=np.zeros((5, 6 * n)), pull=np.zeros((5, 3 * n)),
+        stretch=np.zeros((5, n)), gradient=np.zeros((5, 9 * n)), star=np.zeros((6, n + 1)), flow=np.zeros((5, 6 * n)),
+        joints=np.zeros((3, n + 1)), height=np.zeros((5, n)), body=np.zeros((3, 3)), body_flow=np.zeros(6),
+        outside=RopeOutside.many(1), ends=RopeEnds.many(1), power=np.zeros(terms), work=np.zeros(terms),
+    )  # fmt: skip
 
 
 def make_above(elements: int) -> tuple[np.ndarray, np.ndarray]:
