@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
 from html import escape
 from sys import maxsize
 from textwrap import wrap
@@ -14,19 +15,34 @@ _NARROWEST = 20
 """Characters of the narrowest column that texts are wrapped in."""
 
 
-def finite_only(value: Any) -> Any:
-    """The same data as JSON can hold it: what is not finite becomes null.
+def plain(value: Any, *, finite: bool = False) -> Any:
+    """The same data as dicts, lists, texts and numbers: records by their fields, arrays as lists.
 
-    >>> finite_only({"a": (1.0, float("nan"))})
+    Args:
+        value: what is to be shown.
+        finite: whether numbers that are not become None, for JSON holds none of them.
+
+    >>> plain({"a": (1.0, float("nan"))}, finite=True)
     {'a': [1.0, None]}
     """
-    if isinstance(value, Mapping):
-        return {str(key): finite_only(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite_only(item) for item in value]
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
     if isinstance(value, float):
-        return value if math.isfinite(value) else None
+        return None if finite and not math.isfinite(value) else value
+    if is_dataclass(value):
+        value = attributes(value, " ".join(field.name for field in fields(value)))
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, Mapping):
+        return {str(key): plain(item, finite=finite) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain(item, finite=finite) for item in value]
     return value
+
+
+def attributes(found: Any, names: str) -> dict[str, Any]:
+    """Attributes of an object by their names, which have spaces between."""
+    return {name: getattr(found, name) for name in names.split()}
 
 
 def shown_unit(unit: str) -> str:

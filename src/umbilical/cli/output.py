@@ -14,7 +14,7 @@ from umbilical.cli.terminal import (
 from umbilical.errors import ScenarioError
 from umbilical.faces.conclusion import DOES_NOT_HOLD
 from umbilical.result import ResultFaces
-from umbilical.tables import finite_only
+from umbilical.tables import plain
 
 EXIT_CODES = {
     0: "completed",
@@ -31,7 +31,7 @@ EXIT_CODES = {
 
 def print_json(document: Mapping[str, Any]) -> None:
     """One JSON object, to stdout."""
-    print_result(json.dumps(finite_only(document), indent=2, allow_nan=False))
+    print_result(json.dumps(plain(document, finite=True), indent=2, allow_nan=False))
 
 
 def conclude(result: ResultFaces, *beside: Any, files: Mapping[str, Any] | None = None, as_json: bool) -> int:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from umbilical.certificate import largest_bounds, lyapunov_of
 from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.quantities import CERTIFICATE
-from umbilical.tables import shown_unit, text_table
+from umbilical.tables import attributes, shown_unit, text_table
 
 if TYPE_CHECKING:
     from umbilical.certificate import Certificate, Inequality
@@ -147,7 +147,6 @@ def _audit_report(audit: Audit) -> Iterator[str]:
 
 def _document(certificate: Certificate, audit: Audit | None = None) -> dict[str, Any]:
     """A certificate as ``--json`` prints it."""
-    bounds = largest_bounds(certificate)
     return {
         "status": "CERTIFIED" if certificate.holds else "NOT_CERTIFIED",
         "scenario": certificate.scenario.name,
@@ -155,33 +154,22 @@ def _document(certificate: Certificate, audit: Audit | None = None) -> dict[str,
         "inequalities": [_inequality(i) for i in certificate.inequalities],
         "paper": [_inequality(i) for i in certificate.paper],
         **dict(_numbers(certificate)),
-        "edges": certificate.edges.tolist(),
-        "rates": certificate.rates.tolist(),
-        "loads": certificate.loads._asdict(),
-        "bounds": bounds._asdict() if bounds else {},
-        "proof": certificate.proof._asdict(),
-        "fixes": [asdict(fix) for fix in certificate.fixes],
-        "limits": certificate.limits,
+        "bounds": largest_bounds(certificate) or {},
+        **attributes(certificate, "edges rates loads proof fixes limits"),
         "audit": _audit_document(audit) if audit else None,
     }
 
 
 def _inequality(inequality: Inequality) -> dict[str, Any]:
-    return asdict(inequality) | {"margin": inequality.margin, "holds": inequality.holds}
+    return asdict(inequality) | attributes(inequality, "margin holds")
 
 
 def _audit_document(audit: Audit) -> dict[str, Any]:
-    return {
-        "excess": audit.excess,
-        "cable_excess": audit.cable_excess,
-        "real_excess": audit.real_excess,
-        "identity": audit.identity,
-        "ideal_status": audit.ideal_run.status.name,
-        "real_status": audit.real_run.status.name,
-        "ideal_start": float(audit.ideal[0]),
-        "ideal_end": float(audit.ideal[-1]),
-        "real_start": float(audit.real[0]),
-        "real_end": float(audit.real[-1]),
+    sides = {"ideal": (audit.ideal_run, audit.ideal), "real": (audit.real_run, audit.real)}
+    return attributes(audit, "excess cable_excess real_excess identity") | {
+        f"{side}_{name}": value
+        for side, (run, v) in sides.items()
+        for name, value in (("status", run.status.name), ("start", v[0]), ("end", v[-1]))
     }
 
 

@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple
 
+from umbilical.tables import plain
+
 DOES_NOT_HOLD = 7
 """Exit code of what does not hold or is not resolved."""
 Decision = Literal["HOLDS", "DOES_NOT_HOLD", "UNRESOLVED", "NOT_ASKED"]
@@ -43,7 +45,7 @@ class Face(NamedTuple):
     Attributes:
         conclusion: gives the verdict.
         text: gives what stands below the headline.
-        document: gives plain data, without the verdict.
+        document: gives data, without the verdict; records and arrays in it become plain data.
     """
 
     conclusion: Callable[..., Conclusion]
@@ -57,4 +59,4 @@ class Face(NamedTuple):
     def to_dict(self, *found: Any) -> dict[str, Any]:
         """Plain data, the verdict first, and not to be contradicted by what a result says of itself."""
         verdict = self.conclusion(*found).document()
-        return verdict | self.document(*found) | verdict
+        return verdict | plain(self.document(*found)) | verdict

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from umbilical.faces import margins
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.tables import text_table
+from umbilical.tables import attributes, text_table
 
 if TYPE_CHECKING:
     from umbilical.synthesis.design import Design
@@ -25,12 +25,8 @@ def _conclusion(found: Design) -> Conclusion:
 def _document(found: Design) -> dict[str, Any]:
     """A design as ``--json`` prints it."""
     return {
-        "objective": found.objective,
-        "met": found.met,
-        "missing": found.missing,
-        "limited_by": found.limited_by,
+        **attributes(found, "objective met missing limited_by values"),
         "not_asked": NOT_ASKED,
-        "values": found.values,
         "patch": found.patch(),
         "before": _side(found.before),
         "after": _side(found.after),
@@ -38,19 +34,14 @@ def _document(found: Design) -> dict[str, Any]:
 
 
 def _side(side: Evaluation) -> dict[str, Any]:
-    trial = side.trial
     return {
         "margins_met": side.meets,
         "margins_met_at_any_length": side.kept,
         "reflection_of_first_modes": side.score.reflection,
         "compliance": side.score.compliance,
-        "status": trial.run.status.name,
-        "late_mid_peak": trial.late_mid_peak,
-        "tip_peak": trial.tip_peak,
-        "voltage_peak": trial.voltage_peak,
-        "speed_peak": trial.speed_peak,
-        "chatter": trial.chatter,
-        "noise": side.noise._asdict(),
+        "status": side.trial.run.status.name,
+        **attributes(side.trial, "late_mid_peak tip_peak voltage_peak speed_peak chatter"),
+        "noise": side.noise,
         "margins": margins.FACE.document(side.report),
     }
 

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.tables import text_table
+from umbilical.tables import attributes, text_table
 
 if TYPE_CHECKING:
     from umbilical.stability.grid import GridJudgement
@@ -37,30 +37,16 @@ def _document(report: MarginReport) -> dict[str, Any]:
     return {
         "scenario": report.scenario.name,
         "scenario_hash": report.scenario.hash,
-        "operating_thrust": report.operating_thrust,
-        "stable": report.stable,
-        "resolved": report.resolved,
+        **attributes(report, "operating_thrust stable resolved limits"),
         "controller": report.controller or None,
         "doubt": report.doubt or None,
-        "limits": report.limits,
         "grids": [
-            {
-                "elements": g.elements,
-                "unstable_poles": g.stability.unstable,
-                "difference": g.difference,
-                "differs_most": g.differs._asdict(),
-                "heard_up_to": g.heard,
-            }
+            attributes(g, "elements difference")
+            | {"unstable_poles": g.stability.unstable, "differs_most": g.differs, "heard_up_to": g.heard}
             for g in report.grids
         ],
-        "eigenvalues": None
-        if report.check is None
-        else {
-            "elements": report.check.elements,
-            "states": report.check.states,
-            "agree": report.check.agrees,
-            "counts": [count._asdict() for count in report.check.counts],
-        },
+        "eigenvalues": report.check
+        and attributes(report.check, "elements states counts") | {"agree": report.check.agrees},
         "lengths": [_one_length(judgement) for judgement in report.judgements],
     }
 
@@ -68,19 +54,16 @@ def _document(report: MarginReport) -> dict[str, Any]:
 def _one_length(j: Judgement) -> dict[str, Any]:
     worst = j.stability.worst
     return {
-        "length": j.length,
-        "stable": j.stable,
+        **attributes(j, "length stable modes"),
         "unstable_poles": j.stability.unstable,
         "unstable_poles_without_cable_end": j.stability.endless,
-        "fastest_growth": None if worst is None else {"frequency": worst.frequency, "rate": worst.rate},
-        "margins": None
-        if j.margins is None
-        else {
-            name: {"size": getattr(j.margins, name).size, "frequency": getattr(j.margins, name).frequency}
-            for name in ("gain_low", "gain_high", "phase", "delay")
+        "fastest_growth": None if worst is None else attributes(worst, "frequency rate"),
+        "margins": j.margins
+        and {
+            name: attributes(margin, "size frequency")
+            for name, margin in attributes(j.margins, "gain_low gain_high phase delay").items()
         },
-        "modes": [mode._asdict() for mode in j.modes],
-        "reflection": {"frequency": j.frequency.tolist(), "size": j.reflection.tolist()},
+        "reflection": {"frequency": j.frequency, "size": j.reflection},
     }
 
 

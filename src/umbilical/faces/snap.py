@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
+from umbilical.tables import attributes
 
 if TYPE_CHECKING:
     from umbilical.studies.snap import SnapStudy
@@ -66,18 +67,9 @@ def _document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:
     return {
         "scenario": found.scenario.name,
         "scenario_hash": found.scenario.hash,
-        "seeds": found.seeds.tolist(),
-        "completed": found.completed.tolist(),
-        "reasons": found.reasons,
-        "largest_tension": found.largest_tension.tolist(),
-        "snaps": found.snaps.tolist(),
-        "largest_snap": found.largest_snap.tolist(),
-        "impact_speed": found.impact_speed.tolist(),
-        "static_tension": found.static_tension,
-        "rule_of_thumb": found.rule_of_thumb,
-        "slack": found.slack._asdict(),
-        "gumbel": fit
-        and {"location": fit.location, "scale": fit.scale, "exceeded_by_1_in_100": fit.exceeded._asdict()},
+        **attributes(found, "seeds completed reasons largest_tension snaps largest_snap impact_speed static_tension"),
+        **attributes(found, "rule_of_thumb slack"),
+        "gumbel": fit and attributes(fit, "location scale") | {"exceeded_by_1_in_100": fit.exceeded},
         "accepted_risk": risk,
     }
 

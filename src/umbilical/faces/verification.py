@@ -6,7 +6,7 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
-from umbilical.tables import finite_only, markdown, text_table
+from umbilical.tables import markdown, plain, text_table
 
 if TYPE_CHECKING:
     from umbilical.verify import Verification
@@ -55,7 +55,7 @@ def _row(check: Check) -> dict[str, Any]:
 
 def data(found: Verification) -> str:
     """JSON text; what is not finite becomes null."""
-    return json.dumps(finite_only(_document(found)), indent=2, allow_nan=False) + "\n"
+    return json.dumps(plain(_document(found), finite=True), indent=2, allow_nan=False) + "\n"
 
 
 def markdown_page(found: Verification, picture: str) -> str:
