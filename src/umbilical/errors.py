@@ -15,7 +15,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from umbilical.run import Run
@@ -107,3 +108,15 @@ def expect(value: object, kind: str, maker: str) -> None:
         shown = repr(path) if path is not None else f"a {type(value).__name__}"
         argument = "..." if path is None else shown
         raise TypeError(f"a {kind} is needed here, not {shown}: umbilical.{maker}({argument}) gives one")
+
+
+def import_partner(module: str, message: str) -> Any:
+    """An optional package, imported.
+
+    Raises:
+        MissingPartnerError: it is not installed; the message says what it is needed for, and how to get it.
+    """
+    try:
+        return import_module(module)
+    except ImportError as error:
+        raise MissingPartnerError(message) from error

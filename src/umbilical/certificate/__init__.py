@@ -10,16 +10,6 @@ from umbilical.certificate.displacement import Bounds, displacement_bound, large
 from umbilical.certificate.records import Certificate, Inequality, Proof, Start, Weights
 
 __all__ = [
-    "Bounds",
-    "Certificate",
-    "Inequality",
-    "Proof",
-    "Start",
-    "Weights",
-    "bound",
-    "cable_bound",
-    "certify",
-    "displacement_bound",
-    "largest_bounds",
-    "lyapunov_of",
-]
+    "Bounds", "Certificate", "Inequality", "Proof", "Start", "Weights", "bound", "cable_bound", "certify",
+    "displacement_bound", "largest_bounds", "lyapunov_of",
+]  # fmt: skip

@@ -52,28 +52,15 @@ def certify(scenario: Scenario, *, fix: bool = True) -> Certificate:
     spent, residual, cable_residual = residual_of(loop, ranges, weights, float(proved.min()), loads)
     stated = conditions(loop, motion, weights, proved, task.vessel_moves)
     return Certificate(
-        scenario=scenario,
-        inequalities=tuple(tightest(condition, motion) for condition in stated),
-        margins=relative_margins(stated),
-        paper=paper_conditions(loop, motion, weights, loads.cable > 0.0),
-        loop=loop,
-        weights=weights,
-        edges=edges,
-        rates=proved,
-        stretch=growth_at_edges(loop, scenario.winch, weights, edges),
-        ranges=ranges,
-        fixed_length_rate=best_rate(loop, stopped(motion, loop.g)),
-        exact_rate=energy_rate(loop, float(motion.l.max())),
-        loads=loads,
-        spent=spent,
-        residual=residual,
-        cable_residual=cable_residual,
-        start=start_of(loop, scenario),
-        reach=(reach_of(loop, ranges, weights, 0.5), reach_of(loop, ranges, weights, 1.0)),
-        proof=proof,
-        fixes=fixes(loop, task) if fix and not found.certified else (),
-        limits=_limits(scenario),
-    )
+        scenario=scenario, inequalities=tuple(tightest(condition, motion) for condition in stated),
+        margins=relative_margins(stated), paper=paper_conditions(loop, motion, weights, loads.cable > 0.0), loop=loop,
+        weights=weights, edges=edges, rates=proved, stretch=growth_at_edges(loop, scenario.winch, weights, edges),
+        ranges=ranges, fixed_length_rate=best_rate(loop, stopped(motion, loop.g)),
+        exact_rate=energy_rate(loop, float(motion.l.max())), loads=loads, spent=spent, residual=residual,
+        cable_residual=cable_residual, start=start_of(loop, scenario),
+        reach=(reach_of(loop, ranges, weights, 0.5), reach_of(loop, ranges, weights, 1.0)), proof=proof,
+        fixes=fixes(loop, task) if fix and not found.certified else (), limits=_limits(scenario),
+    )  # fmt: skip
 
 
 def _limits(scenario: Scenario) -> tuple[str, ...]:

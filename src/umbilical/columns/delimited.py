@@ -45,10 +45,8 @@ def parse_delimited(text: str, origin: str) -> Parsed:
         raise FileError(f"{origin}: holds no rows of numbers under a line of names")
     (first, header), *body = rows
     if all(_is_number(cell) for cell in header):
-        raise FileError(
-            f"{origin}: line {first} holds numbers and names no column; "
-            "begin with a line of names and units, e.g. time [s],sway [m]"
-        )
+        reason = "begin with a line of names and units, e.g. time [s],sway [m]"
+        raise FileError(f"{origin}: line {first} holds numbers and names no column; {reason}")
     names, units = _named(header)
     if _is_units(body[0][1], len(header)) and len(body) > 1:
         units, body = dict(zip(names, body[0][1], strict=True)), body[1:]
@@ -61,17 +59,15 @@ def parse_delimited(text: str, origin: str) -> Parsed:
     numbers = _of_numbers([row for _, row in body])
     names = tuple(compress(names, numbers))
     values, dates = _values(names, [(line, [*compress(row, numbers)]) for line, row in body], origin)
-    units = {name: "s" if name in dates else _bare(units[name]) for name in names}
+    units = {name: "s" if name in dates else units[name].strip("[]() ") for name in names}
     return names, units, values, dates, np.array([line for line, _ in body])
 
 
 def _check_lengths(names: tuple[str, ...], body: list[tuple[int, list[str]]], origin: str) -> None:
     for line, row in body:
         if len(row) != len(names):
-            raise FileError(
-                f"{origin}: line {line} has {len(row)} cells and the header {len(names)}; decimal commas need "
-                "semicolons or tabulators between columns"
-            )
+            reason = "decimal commas need semicolons or tabulators between columns"
+            raise FileError(f"{origin}: line {line} has {len(row)} cells and the header {len(names)}; {reason}")
 
 
 def _of_numbers(rows: list[list[str]]) -> list[bool]:
@@ -90,9 +86,7 @@ def _rows(text: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
     separator = ""
     for number, line in enumerate(text.splitlines(), start=1):
         bare = line.strip()
-        if not bare or bare.strip(",;\t") == "":
-            continue
-        if bare.lower().startswith("sep=") and not lines:
+        if not bare.strip(",;\t") or (bare.lower().startswith("sep=") and not lines):
             continue
         if bare.startswith("#"):
             comment = comment if lines else [cell.strip() for cell in bare.lstrip("# ").split(",")]
@@ -116,13 +110,9 @@ def _comma(cell: str) -> bool:
 
 
 def _decimal(cell: str) -> str:
-    return (
-        cell.replace(",", ".")
-        if _comma(cell)
-        else f"{cell} (in a file with decimal commas)"
-        if "." in cell and _is_number(cell)
-        else cell
-    )
+    if _comma(cell):
+        return cell.replace(",", ".")
+    return f"{cell} (in a file with decimal commas)" if "." in cell and _is_number(cell) else cell
 
 
 def _is_number(cell: str) -> bool:
@@ -130,19 +120,14 @@ def _is_number(cell: str) -> bool:
 
 
 def _is_units(row: list[str], count: int) -> bool:
-    return len(row) == count and not any(
-        _is_number(cell) or cell.lower() in _BLANK[1:-1] or _date(cell) for cell in row
-    )
+    values = (_is_number(cell) or cell.lower() in _BLANK[1:-1] or _date(cell) for cell in row)
+    return len(row) == count and not any(values)
 
 
 def _named(header: list[str]) -> tuple[tuple[str, ...], dict[str, str]]:
     found = [_WITH_UNIT.fullmatch(cell) for cell in header]
     names = tuple(match["name"] if match else cell for match, cell in zip(found, header, strict=True))
     return names, {name: match["unit"] if match else "" for name, match in zip(names, found, strict=True)}
-
-
-def _bare(unit: str) -> str:
-    return unit.strip("[]() ")
 
 
 def _values(
@@ -154,17 +139,14 @@ def _values(
             if _is_number(cell):
                 values[j, k] = float(cell)
             elif cell.lower() not in _BLANK:
-                values[j, k] = _instant(cell, f"{origin}: line {line}, {names[j]}")
+                if (found := _date(cell)) is None:
+                    reason = (
+                        f"{cell!r} is neither a number nor a date such as 2026-03-01T12:00:00.5 or 01.03.2026 12:00"
+                    )
+                    raise FileError(f"{origin}: line {line}, {names[j]}: {reason}")
+                values[j, k] = found
                 dates.add(names[j])
     return dict(zip(names, values, strict=True)), frozenset(dates)
-
-
-def _instant(cell: str, where: str) -> float:
-    if (found := _date(cell)) is None:
-        raise FileError(
-            f"{where}: {cell!r} is neither a number nor a date such as 2026-03-01T12:00:00.5 or 01.03.2026 12:00"
-        )
-    return found
 
 
 def _date(cell: str) -> float | None:

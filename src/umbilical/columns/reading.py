@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -67,23 +66,17 @@ def _of_netcdf(content: bytes, origin: str) -> Columns:
             loaded = data.load()
     except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
         raise FileError(f"{origin}: the file is damaged or no NetCDF ({type(error).__name__})") from error
-    lists = {
-        str(name): array for name, array in loaded.variables.items() if array.ndim == 1 and array.dtype.kind in "fiu"
-    }
+    variables = loaded.variables.items()
+    lists = {str(name): array for name, array in variables if array.ndim == 1 and array.dtype.kind in "fiu"}
     dims = [array.dims[0] for array in lists.values()]
     if not dims:
         raise FileError(f"{origin}: holds no variable over one dimension")
     shared = max(dict.fromkeys(dims), key=lambda dim: (dims.count(dim), dim == "time"))
     chosen = {name: array for name, array in lists.items() if array.dims[0] == shared}
     ordered = dict(sorted(chosen.items(), key=lambda item: item[0] != str(shared)))
-    read = {name: _numbers(array) for name, array in ordered.items()}
-    lines = np.arange(1, loaded.sizes[shared] + 1)
-    dates = frozenset(name for name, (_, _, date) in read.items() if date)
-    units = {name: unit for name, (_, unit, _) in read.items()}
-    return Columns(origin, tuple(read), units, {name: values for name, (values, _, _) in read.items()}, dates, lines)
-
-
-def _numbers(array: Any) -> tuple[np.ndarray, str, bool]:
-    """Values, unit, and whether they are dates: of ``days since 1970-01-01`` the number counts, not the day."""
-    unit, values = str(array.attrs.get("units", "")), array.values.astype(float)
-    return (values, unit.split(" since ")[0], True) if " since " in unit else (values, unit, False)
+    units = {name: str(array.attrs.get("units", "")) for name, array in ordered.items()}
+    dates = frozenset(name for name, unit in units.items() if " since " in unit)
+    # Of ``days since 1970-01-01`` the number counts, not the day.
+    units = {name: unit.split(" since ")[0] for name, unit in units.items()}
+    values = {name: array.values.astype(float) for name, array in ordered.items()}
+    return Columns(origin, tuple(units), units, values, dates, np.arange(1, loaded.sizes[shared] + 1))

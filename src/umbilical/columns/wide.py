@@ -49,9 +49,8 @@ def _taken(columns: Columns, name: str, want: Wanted, key: str) -> np.ndarray | 
     if not np.isfinite(values).all():
         line = columns.lines[int(np.argmin(np.isfinite(values)))]
         reason = "every row of this table counts"
-        return Problem(
-            f"{key}.{want.name}", f"a blank in {name}, line {line}", "a number in every row", reason, "fill it"
-        )
+        blank = f"a blank in {name}, line {line}"
+        return Problem(f"{key}.{want.name}", blank, "a number in every row", reason, "fill it")
     if want.unit == "rad/s" and factor(unit, "s") is not None:  # a period
         with np.errstate(divide="ignore"):
             return 2.0 * np.pi / (values * float(factor(unit, "s") or 1.0))

@@ -39,21 +39,15 @@ def nominal(control: Control, motors: Sequence[Motor]) -> Iterator[Finding]:
     for name, values in (("thrust_coefficients", believed.thrust_coefficients), ("motors", believed.motors)):
         if values is not None and len(values) != len(motors):
             yield Problem(
-                f"control.nominal.{name}",
-                f"{len(values)} entries",
-                f"{len(motors)} entries",
-                "one for each motor",
+                f"control.nominal.{name}", f"{len(values)} entries", f"{len(motors)} entries", "one for each motor",
                 "as many entries as [[motors]], or leave it out",
-            )
+            )  # fmt: skip
     coefficients = {f"thrust_coefficients.{k}": c for k, c in enumerate(believed.thrust_coefficients or (), start=1)}
     for number, motor in enumerate(believed.motors or (), start=1):
         coefficients[f"motors.{number}.thrust_coefficient"] = motor.thrust_coefficient
     for name, coefficient in coefficients.items():
         if coefficient == 0.0:
             yield Problem(
-                f"control.nominal.{name}",
-                amount(0.0, "N s2/rad2"),
-                "above or below 0",
-                "the allocation divides by the sum of their sizes",
-                "the sign says which way it pushes",
-            )
+                f"control.nominal.{name}", amount(0.0, "N s2/rad2"), "above or below 0",
+                "the allocation divides by the sum of their sizes", "the sign says which way it pushes",
+            )  # fmt: skip

@@ -31,13 +31,9 @@ _MOST_HELD = 2**31 - 2
 
 
 def to_c(
-    scenario: Scenario,
-    folder: str | os.PathLike[str],
-    *,
-    prefix: str = _PREFIX,
-    hold: float | None = None,
+    scenario: Scenario, folder: str | os.PathLike[str], *, prefix: str = _PREFIX, hold: float | None = None,
     force: bool = False,
-) -> list[Path]:
+) -> list[Path]:  # fmt: skip
     """Write the controller of a scenario as C99, with a self-test and a text on its use.
 
     Driven by the same readings it gives the bits of :class:`umbilical.control.cascade.Cascade`.
@@ -81,13 +77,8 @@ def c_files(scenario: Scenario, *, prefix: str = _PREFIX, hold: float | None = N
     source = template("controller.c")
     used = set(re.findall(r"(?:\.|->)(\w+)", source))
     values |= _structs(scenario, settings, used) | _vectors(list(vectors(scenario)), used)
-    texts = {
-        "umbilical_controller.h": template("controller.h"),
-        "umbilical_controller.c": source,
-        "selftest.c": template("selftest.c"),
-        "test_vectors.h": template("test_vectors.h"),
-        "README.txt": template("README.txt"),
-    }
+    texts = {"umbilical_controller.h": template("controller.h"), "umbilical_controller.c": source}
+    texts |= {name: template(name) for name in ("selftest.c", "test_vectors.h", "README.txt")}
     return {name: _renamed(fill_template(text, values), prefix) for name, text in texts.items()}
 
 
@@ -145,20 +136,14 @@ def _words(scenario: Scenario, settings: CascadeSettings, hold: float | None) ->
     origin = "assumed; give the one of your vehicle with --hold" if hold is None else "chosen when the file was written"
     ideal = settings.outer.observers.ideal_rates
     return {
-        "HEAD": head(scenario),
-        "HASH": scenario.hash,
-        "MOTORS": str(motors),
-        "ROOM": str(max(1, motors)),
-        "PERIOD": c_literal(period),
-        "PERIOD_WORDS": f"{period:g}",
-        "HOLD": str(held),
-        "HOLD_WORDS": f"{held * period:g} s",
+        "HEAD": head(scenario), "HASH": scenario.hash, "MOTORS": str(motors), "ROOM": str(max(1, motors)),
+        "PERIOD": c_literal(period), "PERIOD_WORDS": f"{period:g}", "UPDATES": str(UPDATES),
+        "HOLD": str(held), "HOLD_WORDS": f"{held * period:g} s",
         "HOLD_ORIGIN": f"UMB_HOLD = {held} updates is {origin}.",
         "IDEAL_WORDS": "" if ideal else " /* tip_velocity and tip_slope_rate are not used by this one */",
         "SUMMARY": f"{comment(scenario.name)}, {scenario.hash}\n{law}, {motors} motor{'s' * (motors != 1)}.",
         "OUTPUT": "state.decision." + ("motors[i].motor_voltage" if settings.motors.driven else "outer.thrust_command"),
-        "UPDATES": str(UPDATES),
-    }
+    }  # fmt: skip
 
 
 def _structs(scenario: Scenario, settings: CascadeSettings, used: set[str]) -> dict[str, str]:
@@ -166,14 +151,15 @@ def _structs(scenario: Scenario, settings: CascadeSettings, used: set[str]) -> d
     kappa = initial_kappa(scenario.control.allocation, len(scenario.motors))
     room = max(1, len(scenario.motors)) + 1
     first = initialiser(np.append(kappa, np.zeros(room - kappa.size)), used)
-    constants = f"static const umb_cascade_settings SETTINGS = {initialiser(settings, used)};\n"
+    constants = (
+        f"static const umb_cascade_settings SETTINGS = {initialiser(settings, used)};\n",
+        f"static const double INITIAL_KAPPA[{room}] = {first};\n",
+    )
     return {
         "READINGS": _frames(used, TipReadings, WinchReadings, MotorReadings),
         "DECISION": _frames(used, OuterDecision, MotorDecision),
         "MEMORY": _frames(used, OuterMemory, MotorMemory),
-        "SETTINGS": "\n".join(
-            [*value_structs(settings, used), constants, f"static const double INITIAL_KAPPA[{room}] = {first};\n"]
-        ),
+        "SETTINGS": "\n".join([*value_structs(settings, used), *constants]),
     }
 
 

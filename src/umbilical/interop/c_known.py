@@ -61,13 +61,11 @@ def _unknown(record: Record, key: str) -> Iterator[Problem]:
         return
     for name, field in type(record).model_fields.items():
         value, place = getattr(record, name), f"{key}.{name}"
-        if name not in KNOWN[kind]:
-            default = field.get_default(call_default_factory=True)
-            if value != default:
-                yield _problem(place, value, f"its default ({default})", "leave it out")
-            continue
-        for part, where in _records(value, place):
-            yield from _unknown(part, where)
+        if name in KNOWN[kind]:
+            for part, where in _records(value, place):
+                yield from _unknown(part, where)
+        elif value != (default := field.get_default(call_default_factory=True)):
+            yield _problem(place, value, f"its default ({default})", "leave it out")
 
 
 def _records(value: Any, place: str) -> Iterator[tuple[Record, str]]:

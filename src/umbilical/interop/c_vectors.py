@@ -14,14 +14,9 @@ from umbilical.scenario.scenario import Scenario
 
 UPDATES = 200
 _SPANS = {
-    "tip_displacement": 0.5,
-    "tip_slope": 0.02,
-    "tip_velocity": 0.3,
-    "tip_slope_rate": 0.02,
-    "payout_acceleration": 0.1,
-    "motor_speed": 30.0,
-    "motor_current": 40.0,
-}
+    "tip_displacement": 0.5, "tip_slope": 0.02, "tip_velocity": 0.3, "tip_slope_rate": 0.02,
+    "payout_acceleration": 0.1, "motor_speed": 30.0, "motor_current": 40.0,
+}  # fmt: skip
 """Largest size of each reading: what a run of the presets reaches, so that limits and both signs are met."""
 
 
@@ -51,17 +46,9 @@ def _measurement(scenario: Scenario, k: int) -> Measurement:
     size = {name: span * _triangle(k, 31 + 7 * i) for i, (name, span) in enumerate(_SPANS.items())}
     speeds = [_SPANS["motor_speed"] * _triangle(k, 23 + 4 * j) for j in range(motors)]
     currents = [_SPANS["motor_current"] * _triangle(k, 29 + 6 * j) for j in range(motors)]
-    return Measurement(
-        size["tip_displacement"],
-        size["tip_slope"],
-        np.array(speeds),
-        np.array(currents),
-        100.0,
-        0.0,
-        size["payout_acceleration"],
-        size["tip_velocity"] if ideal else None,
-        size["tip_slope_rate"] if ideal else None,
-    )
+    tip, rates = (size["tip_displacement"], size["tip_slope"]), (size["tip_velocity"], size["tip_slope_rate"])
+    winch = (100.0, 0.0, size["payout_acceleration"])
+    return Measurement(*tip, np.array(speeds), np.array(currents), *winch, *(rates if ideal else (None, None)))
 
 
 def _triangle(k: int, period: int) -> float:

@@ -19,7 +19,7 @@ from xml.sax.saxutils import quoteattr
 import umbilical
 from umbilical import files
 from umbilical.control.contract import MotorDecision, MotorReadings, OuterDecision, TipReadings
-from umbilical.errors import MissingPartnerError, OutputError, expect
+from umbilical.errors import OutputError, expect, import_partner
 from umbilical.frames import Frame
 from umbilical.interop.c_code import c_files, fill_template, head, template
 from umbilical.interop.units import base_units
@@ -73,13 +73,13 @@ def to_fmu(scenario: Scenario, path: str | os.PathLike[str], *, hold: float | No
     'pd.fmu'
     """
     expect(scenario, "Scenario", "load")
-    partner = _partner()
+    fmpy = import_partner("fmpy", "to_fmu takes the headers of FMI from fmpy: pip install 'umbilical[fmi]'")
     target = Path(path)
     if target.suffix.lower() != ".fmu":
         raise OutputError(f"{target}: the name must end with .fmu")
     files.check_free(target, force=force)
-    content = _content(scenario, hold, Path(partner.__file__).parent / "c-code")
-    binary, values = _compiled(content, _identifier(scenario), partner)
+    content = _content(scenario, hold, Path(fmpy.__file__).parent / "c-code")
+    binary, values = _compiled(content, _identifier(scenario), fmpy)
     return Fmu(files.write(target, _packed({**content, **binary}), force=force), values)
 
 
@@ -101,12 +101,8 @@ def _content(scenario: Scenario, hold: float | None, headers: Path) -> dict[str,
 def _own_files(scenario: Scenario, guid: str) -> dict[str, str]:
     """What makes an FMU of the controller."""
     inputs, outputs = _inputs(scenario), _outputs(scenario)
-    values = {
-        "GUID": guid,
-        "HEAD": head(scenario),
-        "INPUTS": str(len(inputs)),
-        "REALS": "\n".join(f"    case {k}: return &m->{v.expression};" for k, v in enumerate([*inputs, *outputs])),
-    }
+    cases = (f"    case {k}: return &m->{v.expression};" for k, v in enumerate([*inputs, *outputs]))
+    values = {"GUID": guid, "HEAD": head(scenario), "INPUTS": str(len(inputs)), "REALS": "\n".join(cases)}
     values |= _description(scenario, inputs, outputs)
     return {name: fill_template(template(name), values) for name in ("fmu.c", "modelDescription.xml")}
 
@@ -138,9 +134,8 @@ def _outputs(scenario: Scenario) -> list[FmiVariable]:
 
 def _per_motor(frame: type[Frame], place: str, motors: int) -> list[FmiVariable]:
     """One variable per motor and field; motors are numbered from 1 in names and from 0 in C."""
-    return [
-        FmiVariable(f"{name}[{i + 1}]", f"{place}[{i}].{name}", name) for name in frame.fields for i in range(motors)
-    ]
+    each = [(name, i) for name in frame.fields for i in range(motors)]
+    return [FmiVariable(f"{name}[{i + 1}]", f"{place}[{i}].{name}", name) for name, i in each]
 
 
 def _description(scenario: Scenario, inputs: Sequence[FmiVariable], outputs: Sequence[FmiVariable]) -> dict[str, str]:
@@ -150,18 +145,15 @@ def _description(scenario: Scenario, inputs: Sequence[FmiVariable], outputs: Seq
     first = len(inputs) + 2  # variables are counted from 1, and a boolean stands after the inputs
     unknown = [f'      <Unknown index="{first + k}" dependencies=""/>' for k in range(len(outputs) + 1)]
     return {
-        "IDENTIFIER": _identifier(scenario),
-        "NAME": quoteattr(f"{scenario.name}: controller"),
-        "DESCRIPTION": quoteattr(f"scenario {scenario.hash}"),
-        "VERSION": umbilical.__version__,
-        "PERIOD": repr(scenario.control.period),
-        "STOP": repr(scenario.duration),
+        "IDENTIFIER": _identifier(scenario), "NAME": quoteattr(f"{scenario.name}: controller"),
+        "DESCRIPTION": quoteattr(f"scenario {scenario.hash}"), "VERSION": umbilical.__version__,
+        "PERIOD": repr(scenario.control.period), "STOP": repr(scenario.duration),
         "UNITS": "\n".join(map(_unit, units)),
         "INPUT_VARIABLES": "\n".join(variables[: len(inputs)]),
         "OUTPUT_VARIABLES": "\n".join(variables[len(inputs) :]),
         "UNKNOWNS": "\n".join(unknown),
         "SOURCE_FILES": "\n".join(f'      <File name="{name}"/>' for name in _SOURCES),
-    }
+    }  # fmt: skip
 
 
 def _unit(unit: str) -> str:
@@ -180,12 +172,12 @@ def _real(reference: int, variable: FmiVariable, is_input: bool) -> str:
     return f"    <ScalarVariable {values} {kind}><Real{unit}{start}/></ScalarVariable>"
 
 
-def _compiled(content: Mapping[str, str], identifier: str, partner: Any) -> tuple[dict[str, bytes], str]:
+def _compiled(content: Mapping[str, str], identifier: str, fmpy: Any) -> tuple[dict[str, bytes], str]:
     """The shared library for this machine by its place in the archive, and what it is."""
     compiler = next((found for name in ("cc", "gcc", "clang") if (found := shutil.which(name))), None)
     if compiler is None:
         return {}, "sources only: this machine has no C compiler; `fmpy compile` adds a binary where there is one"
-    name = f"{identifier}{partner.sharedLibraryExtension}"
+    name = f"{identifier}{fmpy.sharedLibraryExtension}"
     options = ("-std=c99", "-O2", "-fPIC", "-shared", "-fvisibility=hidden", "-s")
     with tempfile.TemporaryDirectory() as folder:
         for place, text in content.items():
@@ -196,7 +188,7 @@ def _compiled(content: Mapping[str, str], identifier: str, partner: Any) -> tupl
         if done.returncode != 0:
             return {}, f"sources only: {compiler} failed: {done.stderr.strip()[:300]}"
         library = (Path(folder) / name).read_bytes()
-    return {f"binaries/{partner.platform}/{name}": library}, f"sources and a binary for {partner.platform}"
+    return {f"binaries/{fmpy.platform}/{name}": library}, f"sources and a binary for {fmpy.platform}"
 
 
 def _packed(content: Mapping[str, str | bytes]) -> bytes:
@@ -208,12 +200,3 @@ def _packed(content: Mapping[str, str | bytes]) -> bytes:
             entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
             packed.writestr(entry, data)
     return archive.getvalue()
-
-
-def _partner() -> Any:
-    try:
-        import fmpy
-    except ImportError as error:
-        text = "to_fmu takes the headers of FMI from fmpy: pip install 'umbilical[fmi]'"
-        raise MissingPartnerError(text) from error
-    return fmpy

@@ -40,18 +40,10 @@ Array = np.ndarray
 Reward = Callable[[Measurement, Command], float]
 
 SCALES = {
-    "tip_displacement": 0.1,
-    "tip_slope": 0.01,
-    "tip_velocity": 0.1,
-    "tip_slope_rate": 0.01,
-    "length": 1000.0,
-    "payout_speed": 1.0,
-    "payout_acceleration": 0.1,
-    "motor_speed": 10.0,
-    "motor_current": 10.0,
-    "payload_force": 100.0,
-    "mid_displacement": 0.1,
-}
+    "tip_displacement": 0.1, "tip_slope": 0.01, "tip_velocity": 0.1, "tip_slope_rate": 0.01,
+    "length": 1000.0, "payout_speed": 1.0, "payout_acceleration": 0.1, "motor_speed": 10.0, "motor_current": 10.0,
+    "payload_force": 100.0, "mid_displacement": 0.1,
+}  # fmt: skip
 """What an observation of 1 is of each quantity, in its unit. Assumed: round numbers of the size the presets reach."""
 BOUND = 100.0
 """Observations are clipped to plus and minus this."""
@@ -112,29 +104,16 @@ class Tip(gymnasium.Env[Array, Array]):
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"]}  # noqa: RUF012 (Gymnasium's own form)
 
     def __init__(
-        self,
-        scenario: Scenario | str | None = None,
-        step: float = 0.1,
-        mode: Literal["thrust", "voltage"] = "thrust",
-        *,
-        privileged: bool = False,
-        thrust_scale: float | None = None,
-        voltage_scale: float | None = None,
-        reward: Reward | None = None,
-        study: Study | str | None = None,
-        arm: str | None = None,
-        render_mode: str | None = None,
-    ) -> None:
-        if scenario is not None and study:
-            reason = "a study brings its own, of which every episode is a member"
-            raise ScenarioError(
-                [Problem("scenario", "given", "none beside a study", reason, "give one of them")], "environment"
-            )
-        if arm is not None and not study:
-            reason = "an arm is one of a study's"
-            raise ScenarioError(
-                [Problem("arm", arm, "none without a study", reason, "give the study too")], "environment"
-            )
+        self, scenario: Scenario | str | None = None, step: float = 0.1,
+        mode: Literal["thrust", "voltage"] = "thrust", *, privileged: bool = False, thrust_scale: float | None = None,
+        voltage_scale: float | None = None, reward: Reward | None = None, study: Study | str | None = None,
+        arm: str | None = None, render_mode: str | None = None,
+    ) -> None:  # fmt: skip
+        own = "a study brings its own, of which every episode is a member"
+        _refuse(
+            (scenario and study, "scenario", "given", "none beside a study", own, "give one of them"),
+            (arm and not study, "arm", arm, "none without a study", "an arm is one of a study's", "give the study too"),
+        )
         self._draws = Draws(load_study(study) if isinstance(study, str) else study) if study else None
         self._arm = 0 if self._draws is None else _arm_number(self._draws.study, arm)
         self.scenario = _scenario(scenario, self._draws, self._arm)
@@ -157,10 +136,7 @@ class Tip(gymnasium.Env[Array, Array]):
         """Begin an episode; see the class for what seed and options do."""
         super().reset(seed=seed)
         options = options or {}
-        if unknown := [
-            Problem(f"options.{k}", str(v), "changes", *_UNKNOWN) for k, v in options.items() if k != "changes"
-        ]:
-            raise ScenarioError(unknown, "environment")
+        _refuse(*((k != "changes", f"options.{k}", str(v), "changes", *_UNKNOWN) for k, v in options.items()))
         self._begin(options.get("changes", {}))
         return self._observation(), self._info()
 
@@ -291,11 +267,8 @@ def _arm_number(study: Study, name: str | None) -> int:
     names = [arm.name for arm in study.arms]
     if name is None:
         return 0
-    if name not in names:
-        reason = "an episode is a member of one arm"
-        raise ScenarioError(
-            [Problem("arm", name, f"one of {', '.join(names)}", reason, "give one, or none for the first")]
-        )
+    bound, reason = f"one of {', '.join(names)}", "an episode is a member of one arm"
+    _refuse((name not in names, "arm", name, bound, reason, "give one, or none for the first"))
     return names.index(name)
 
 
@@ -330,23 +303,28 @@ def _voltage_scales(scenario: Scenario, thrust: float, given: float | None) -> A
 
 def _check(scenario: Scenario, mode: str, thrust: float | None, voltage: float | None, render: str | None) -> None:
     """Refuse arguments, all at once."""
-    found = []
-    if scenario.model != "string":
-        found.append(Problem("model", scenario.model, "string", "the environment is in one plane", "choose the string"))
-    if mode not in ("thrust", "voltage"):
-        found.append(Problem("mode", mode, "thrust or voltage", "it says what an action is", "choose one"))
     driven = bool(scenario.motors) and not scenario.ideal_thruster
-    if mode == "voltage" and not driven:
-        found.append(Problem("mode", mode, "thrust", "the scenario has no motors to drive", "choose thrust"))
-    if mode == "thrust" and driven and scenario.control.motor_loop is None:
-        reason, fix = "nothing turns a thrust into voltages", "add control.motor_loop, or choose voltage"
-        found.append(Problem("mode", mode, "voltage", reason, fix))
-    for name, value in (("thrust_scale", thrust), ("voltage_scale", voltage)):
-        if value is not None and not 0.0 < value < np.inf:
-            found.append(Problem(name, f"{value:g}", "above 0", "an action of 1 stands for it", "leave it out"))
-    if render not in (None, "rgb_array"):
-        found.append(Problem("render_mode", str(render), "None or rgb_array", "there is no window", "use rgb_array"))
-    if found:
+    unturned = mode == "thrust" and driven and scenario.control.motor_loop is None
+    scales = (("thrust_scale", thrust), ("voltage_scale", voltage))
+    _refuse(
+        (scenario.model != "string", "model", scenario.model, "string", "the environment is in one plane",
+         "choose the string"),
+        (mode not in ("thrust", "voltage"), "mode", mode, "thrust or voltage", "it says what an action is",
+         "choose one"),
+        (mode == "voltage" and not driven, "mode", mode, "thrust", "the scenario has no motors to drive",
+         "choose thrust"),
+        (unturned, "mode", mode, "voltage", "nothing turns a thrust into voltages",
+         "add control.motor_loop, or choose voltage"),
+        *((value is not None and not 0.0 < value < np.inf, name, f"{value or 0.0:g}", "above 0",
+           "an action of 1 stands for it", "leave it out") for name, value in scales),
+        (render not in (None, "rgb_array"), "render_mode", str(render), "None or rgb_array", "there is no window",
+         "use rgb_array"),
+    )  # fmt: skip
+
+
+def _refuse(*cases: tuple[Any, ...]) -> None:
+    """Raise all problems of an environment whose first entry says that they are there."""
+    if found := [Problem(*problem) for wrong, *problem in cases if wrong]:
         raise ScenarioError(found, "environment")
 
 

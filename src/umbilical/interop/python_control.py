@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from umbilical.errors import MissingPartnerError, expect
+from umbilical.errors import expect, import_partner
 from umbilical.scenario.scenario import Scenario
 from umbilical.stability.judgement import check_loop, usual_lengths, usual_thrust
 from umbilical.stability.laws import READINGS
@@ -43,7 +43,7 @@ def to_control(
     (['thrust_injected'], ['tip_displacement', 'tip_slope'])
     """
     expect(scenario, "Scenario", "load")
-    control = _partner()
+    control = import_partner("control", "to_control needs python-control: pip install 'umbilical[control]'")
     check_loop(scenario)
     chosen = max(usual_lengths(scenario)) if length is None else length
     thrust = usual_thrust(scenario) if operating_thrust is None else operating_thrust
@@ -66,11 +66,3 @@ def to_control(
         "loop": system("loop", (opened, entry, command, np.zeros((1, 1))), ["thrust_injected"], ["thrust_command"]),
         "closed": system("closed", (opened + entry @ command, entry, readings, none), ["added_thrust"], seen),
     }
-
-
-def _partner() -> Any:
-    try:
-        import control
-    except ImportError as error:
-        raise MissingPartnerError("to_control needs python-control: pip install 'umbilical[control]'") from error
-    return control

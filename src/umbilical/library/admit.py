@@ -52,12 +52,13 @@ def admit_data(data: Mapping[str, Any], origin: str, problems: Iterable[Problem]
     """
     try:
         scenario = validate(data, origin)
-        across = _only_problems(_findings(_sections(scenario)))
+        found, sections = [*problems], _sections(scenario)
     except ScenarioError as error:
         scenario = None
-        across = [*error.problems, *_only_problems(_findings(_sound_sections(data, error.problems)))]
-    if scenario is None or problems or across:
-        raise ScenarioError([*problems, *across], origin)
+        found, sections = [*problems, *error.problems], _sound_sections(data, error.problems)
+    found += _only_problems(_findings(sections))
+    if scenario is None or found:
+        raise ScenarioError(found, origin)
     return scenario
 
 

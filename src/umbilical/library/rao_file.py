@@ -20,7 +20,7 @@ def rao_lists(columns: Columns, key: str) -> tuple[dict[str, Any], list[Problem]
     units = {name.lower().replace("_", " ").strip(): columns.units[name] for name in columns.names}
     sizes = {motion: [units[name] for name in _sizes(motion) if name in units] for motion in MOTIONS}
     turned = [name for name in MOTIONS[3:] if sizes[name]]
-    per_slope = [name for name in turned if factor(_slope(sizes[name][0]), "1") is not None]
+    per_slope = [name for name in turned if factor(sizes[name][0], "1") is not None]
     scales = ("frequency", "period", "omega", "wave frequency", "wave period")
     wanted = [
         Wanted("heading", ("heading", "direction", "wave heading", "wave direction"), "rad"),
@@ -48,8 +48,3 @@ def _sizes(motion: str) -> tuple[str, ...]:
 
 def _phases(motion: str) -> tuple[str, ...]:
     return f"{motion} phase", f"{motion} phase angle"
-
-
-def _slope(unit: str) -> str:
-    """Degrees per degree and radian per radian are pure numbers."""
-    return "1" if unit in ("deg/deg", "rad/rad") else unit

@@ -127,25 +127,18 @@ def _read(filled: Filled, source: FromFile, folder: Path) -> Iterator[Problem]:
         return
     if filled.reader == "rao":
         lists, problems = rao_lists(columns, key)
-        yield from problems
-        if not problems:
-            filled.table.update(lists)
-            _keep(filled, source, content)
-        return
-    options = source.model_dump(exclude={"name", "sha256"}) | {"jumps": filled.table.get("interpolation") == "linear"}
-    found = series_of(columns, ColumnChoice(**options, wanted_across=filled.units[0], wanted=filled.units[1]), key)
-    if isinstance(found, list):
-        yield from found
-        return
-    for name, numbers in zip(filled.lists, found[:2], strict=True):
-        filled.table[name] = numbers.tolist()
-    _keep(filled, source.model_copy(update={"start": found.start}), content)
-
-
-def _keep(filled: Filled, source: FromFile, content: bytes) -> None:
-    """The file's record with its hash, in place of its name."""
-    kept = source.model_copy(update={"sha256": hashlib.sha256(content).hexdigest()})
-    filled.table["file"] = kept.model_dump(exclude_none=True)
+    else:
+        options = source.model_dump(exclude={"name", "sha256"})
+        options |= {"jumps": filled.table.get("interpolation") == "linear"}
+        found = series_of(columns, ColumnChoice(**options, wanted_across=filled.units[0], wanted=filled.units[1]), key)
+        lists, problems = {}, found if isinstance(found, list) else []
+        if not isinstance(found, list):
+            lists = {name: numbers.tolist() for name, numbers in zip(filled.lists, found[:2], strict=True)}
+            source = source.model_copy(update={"start": found.start})
+    yield from problems
+    if not problems:
+        kept = source.model_copy(update={"sha256": hashlib.sha256(content).hexdigest()})  # in place of its name
+        filled.table.update(lists, file=kept.model_dump(exclude_none=True))
 
 
 def files_of(scenario: Scenario) -> dict[str, FromFile]:

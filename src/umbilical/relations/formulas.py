@@ -42,14 +42,10 @@ def motor_constants(motor: Any) -> MotorConstants:
     """f11 ... f23 of a :class:`~umbilical.scenario.hardware.Motor`, and K_t/J."""
     scale = motor.torque_constant / motor.inertia
     return MotorConstants.one(
-        f11=-motor.viscous_friction / motor.inertia,
-        f12=-motor.load_coefficient / motor.inertia,
-        f13=1.0 / motor.inertia,
-        f21=-scale * motor.back_emf_constant / motor.inductance,
-        f22=-motor.resistance / motor.inductance,
-        f23=scale / motor.inductance,
-        current_scale=scale,
-    )
+        f11=-motor.viscous_friction / motor.inertia, f12=-motor.load_coefficient / motor.inertia,
+        f13=1.0 / motor.inertia, f21=-scale * motor.back_emf_constant / motor.inductance,
+        f22=-motor.resistance / motor.inductance, f23=scale / motor.inductance, current_scale=scale,
+    )  # fmt: skip
 
 
 def motor_rates(motor: Any, speed: float) -> tuple[np.ndarray, np.ndarray]:

@@ -42,13 +42,9 @@ class Hanging(NamedTuple):
 
 
 def hanging(
-    mass: Real,
-    line_density: Real,
-    gravity: Real,
-    wet_weight: Real | None = None,
-    wet_density: Real | None = None,
+    mass: Real, line_density: Real, gravity: Real, wet_weight: Real | None = None, wet_density: Real | None = None,
     added: Real = 0.0,
-) -> Hanging:
+) -> Hanging:  # fmt: skip
     """What hangs, from masses (kg, kg/m), gravity (m/s2), wet weight (N) and wet density (kg/m); None: as in air.
 
     ``added`` is the mass of water that sinks along with the ROV, A_z, kg: it has inertia and no weight.
@@ -94,9 +90,8 @@ def sinking(hung: Hanging, drag: AxialDrag, speed: Real) -> Hanging:
     6600.0
     """
     square = speed * abs(speed)
-    return Hanging(
-        hung.mass, hung.line_density, hung.buoyancy + drag.body * square, hung.line_buoyancy + drag.line * square
-    )
+    body, line = hung.buoyancy + drag.body * square, hung.line_buoyancy + drag.line * square
+    return Hanging(hung.mass, hung.line_density, body, line)
 
 
 @formula

@@ -46,12 +46,8 @@ def line_in_water(
 ) -> InWater:  # fmt: skip
     """Coefficients of a metre of cable; SI units, the last four dimensionless."""
     displaced, dynamic = water_density * pi * diameter**2 / 4.0, 0.5 * water_density
-    return InWater(
-        displaced,
-        added_mass * displaced,
-        dynamic * normal_drag * (1.0 + STRUMMING * strumming) * diameter,
-        dynamic * tangential_drag * pi * diameter,
-    )
+    normal, tangential = dynamic * normal_drag * (1.0 + STRUMMING * strumming), dynamic * tangential_drag * pi
+    return InWater(displaced, added_mass * displaced, normal * diameter, tangential * diameter)
 
 
 def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
@@ -65,21 +61,14 @@ def in_water(cable: Any, payload: Any, environment: Any) -> InWater:
             of_cable.strumming,
         )  # fmt: skip
     if of_body is not None:
+        b = of_body
         found = found._replace(
-            body_displaced=of_body.displaced_mass,
-            body_added=of_body.added_mass,
-            body_vertical=of_body.vertical_added_mass,
-            body_linear=of_body.linear_drag,
-            body_quadratic=of_body.quadratic_drag,
-            body_axial=of_body.vertical_drag,
-            body_across=_first(of_body.across_added_mass, of_body.added_mass),
-            body_quadratic_across=_first(of_body.across_drag, of_body.quadratic_drag),
-        )
+            body_displaced=b.displaced_mass, body_added=b.added_mass, body_vertical=b.vertical_added_mass,
+            body_linear=b.linear_drag, body_quadratic=b.quadratic_drag, body_axial=b.vertical_drag,
+            body_across=b.added_mass if b.across_added_mass is None else b.across_added_mass,
+            body_quadratic_across=b.quadratic_drag if b.across_drag is None else b.across_drag,
+        )  # fmt: skip
     return found
-
-
-def _first(given: float | None, else_: float) -> float:
-    return else_ if given is None else given
 
 
 def line_inertia(cable: Any, payload: Any, environment: Any) -> float:

@@ -62,12 +62,9 @@ class Environment(Record):
     vessel_motion: Signal = signal_field("m", "transverse motion of the vessel e(t)")
     sea: SeaState | None = Field(default=None, description="waves that move the vessel besides")
     vessel_ramp: float = quantity(
-        "vessel_ramp",
-        0.0,
-        ge=0.0,
-        reason="the vessel's motion is faded in over it",
+        "vessel_ramp", 0.0, ge=0.0, reason="the vessel's motion is faded in over it",
         fix="0 for none, else a few seconds",
-    )
+    )  # fmt: skip
     vessel_heave: Signal | None = signal_field("m", "heave of the sheave, up, faded in likewise", None)
     water: Water | None = None
 

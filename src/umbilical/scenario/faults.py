@@ -14,11 +14,9 @@ from pydantic import Field
 from umbilical.scenario.base import Record, quantity
 
 _SHARE = {
-    "ge": 0.0,
-    "le": 1.0,
-    "reason": "it is the share still delivered: 0 nothing, 1 healthy",
+    "ge": 0.0, "le": 1.0, "reason": "it is the share still delivered: 0 nothing, 1 healthy",
     "fix": "a number from 0 to 1",
-}
+}  # fmt: skip
 
 
 class _Fault(Record):

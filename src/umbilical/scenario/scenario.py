@@ -36,20 +36,13 @@ class Grid(Record):
     """
 
     elements: Annotated[int, WithJsonSchema(_AUTO)] = Field(
-        default=ELEMENTS,
-        ge=4,
-        le=4096,
+        default=ELEMENTS, ge=4, le=4096,
         description='elements along the cable, four intervals of nodes each; "auto" chooses by the tolerance',
-    )
+    )  # fmt: skip
     tolerance: float | None = measured(
-        "1",
-        "relative error of the largest displacements of ROV and midpoint by which a run chooses elements and step",
-        None,
-        ge=1e-6,
-        le=0.1,
-        reason="below it the step's own round-off counts",
-        fix="1e-3",
-    )
+        "1", "relative error of the largest displacements of ROV and midpoint by which a run chooses elements and step",
+        None, ge=1e-6, le=0.1, reason="below it the step's own round-off counts", fix="1e-3",
+    )  # fmt: skip
     step: float = quantity(
         "plant_step", 1e-3, gt=0.0, le=1.0, reason="the plant divides a control period", fix="1e-3 s"
     )

@@ -10,11 +10,9 @@ from umbilical.scenario.base import Number, Record, quantity
 from umbilical.scenario.source import FromFile, from_file
 
 _SHORTEST = {
-    "ge": 1.0,
-    "le": 2e4,
+    "ge": 1.0, "le": 2e4, "fix": "lengths are in metres",
     "reason": "a cable under 1 m is no string in transverse vibration, one over 20 km is a slip of the unit",
-    "fix": "lengths are in metres",
-}
+}  # fmt: skip
 
 
 class ConstantLength(Record):

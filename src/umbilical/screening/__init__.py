@@ -14,20 +14,6 @@ from umbilical.screening.seas import Seas, read_seas
 from umbilical.screening.weather import Weather, weather
 
 __all__ = [
-    "HeaveTransfer",
-    "Lowering",
-    "Operability",
-    "Operation",
-    "Response",
-    "Seas",
-    "Weather",
-    "axial_period",
-    "heave_transfer",
-    "load_operation",
-    "lower",
-    "operate",
-    "operation_names",
-    "read_seas",
-    "respond",
-    "weather",
-]
+    "HeaveTransfer", "Lowering", "Operability", "Operation", "Response", "Seas", "Weather", "axial_period",
+    "heave_transfer", "load_operation", "lower", "operate", "operation_names", "read_seas", "respond", "weather",
+]  # fmt: skip

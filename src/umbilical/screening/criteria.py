@@ -70,8 +70,7 @@ def parse_criterion(text: str) -> Criterion:
             raise ValueError
     except ValueError as error:
         forms = "slack=P/TIME, top_tension:NEWTON=P/TIME or body_heave:METRE=P/TIME, TIME with s, min or h"
-        problem = Problem(
-            "--criterion", text, forms, "a probability P between 0 and 1, within a time above 0", "e.g. slack=1e-2/3h"
-        )
+        reason = "a probability P between 0 and 1, within a time above 0"
+        problem = Problem("--criterion", text, forms, reason, "e.g. slack=1e-2/3h")
         raise ScenarioError([problem], "criterion") from error
     return Criterion(found["name"], level, probability, duration)

@@ -86,24 +86,16 @@ class Lowering(ScreeningResult):
     def to_dict(self) -> dict[str, Any]:
         """As plain data."""
         return self.plain(
-            "depth speed risk axial_period mean_tension",
-            significant_height=self.spectrum.significant_height,
-            peak_period=self.spectrum.peak_period,
-            heading=self.heading,
-            best_speed=float(self.speed[self.best]),
+            "depth speed risk axial_period mean_tension", significant_height=self.spectrum.significant_height,
+            peak_period=self.spectrum.peak_period, heading=self.heading, best_speed=float(self.speed[self.best]),
             waiting_depth=self.waiting_depth,
-        )
+        )  # fmt: skip
 
 
 def lower(
-    operation: Operation,
-    spectrum: Spectrum,
-    *,
-    heading: float,
-    depth: np.ndarray,
-    speed: np.ndarray,
+    operation: Operation, spectrum: Spectrum, *, heading: float, depth: np.ndarray, speed: np.ndarray,
     progress: Callable[[float], None] = lambda share: None,
-) -> Lowering:
+) -> Lowering:  # fmt: skip
     """Compute the risk of slack over a descent at each of several winch speeds.
 
     Args:

@@ -142,14 +142,10 @@ class Operability(ScreeningResult):
 
 
 def operate(
-    operation: Operation,
-    criteria: Sequence[Criterion | str] = USUAL,
-    *,
-    depth: np.ndarray | Sequence[float],
-    period: np.ndarray | Sequence[float],
-    heading: np.ndarray | Sequence[float],
+    operation: Operation, criteria: Sequence[Criterion | str] = USUAL, *, depth: np.ndarray | Sequence[float],
+    period: np.ndarray | Sequence[float], heading: np.ndarray | Sequence[float],
     progress: Callable[[float], None] = lambda share: None,
-) -> Operability:
+) -> Operability:  # fmt: skip
     """Find the limiting Hs of long-crested seas over depth, peak period and heading.
 
     Args:

@@ -73,14 +73,12 @@ def _lists(columns: Columns, key: str) -> tuple[dict[str, np.ndarray], Any, list
     wanted = [Wanted("height", _HEIGHTS, "m"), Wanted("period", _PERIODS[kind], "s")]
     weighted = [name for name in _WEIGHTS if name in names]
     timed = [name for name in _TIMES if name in names] or [_plain(name) for name in sorted(columns.dates)]
-    if weighted:
-        unit = columns.units[next(n for n in columns.names if _plain(n) == weighted[0])]
-        wanted += [] if unit == "" else [Wanted("weight", (weighted[0],), "1")]
+    counts = next((name for name in columns.names if weighted and _plain(name) == weighted[0]), "")
+    wanted += [Wanted("weight", (weighted[0],), "1")] if counts and columns.units[counts] else []
     wanted += [Wanted("time", (timed[0],), "s")] if timed and not weighted else []
     lists, problems = lists_of(columns, wanted, key)
-    if weighted and "weight" not in lists:  # counts have no unit
-        name = next(n for n in columns.names if _plain(n) == weighted[0])
-        lists["weight"] = columns.values[name]
+    if counts and "weight" not in lists:  # counts have no unit
+        lists["weight"] = columns.values[counts]
     if not weighted and not timed:
         reason = "a scatter table says how often each sea occurs, a hindcast when"
         bound = f"one of {', '.join(_WEIGHTS)}, or {', '.join(_TIMES)}, or a column of dates"
@@ -112,9 +110,5 @@ def _checked(
         problems.append(Problem(key, "times", "increasing", "a hindcast runs forward", "sort the rows, none twice"))
     if problems:
         raise ScenarioError(problems, key)
-    return Seas(
-        height,
-        np.where(np.isfinite(period), period, 10.0),
-        shares / shares.sum(),
-        None if time is None else time - time[0],
-    )
+    period = np.where(np.isfinite(period), period, 10.0)
+    return Seas(height, period, shares / shares.sum(), None if time is None else time - time[0])

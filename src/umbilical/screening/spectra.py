@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import io
 import re
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from umbilical.errors import FileError, MissingPartnerError
+from umbilical.errors import FileError, MissingPartnerError, import_partner
 
 _TEXTS = {
     rb"SWAN": ("swan", "read_swan"),
@@ -28,6 +27,7 @@ _NETCDF: dict[tuple[str, ...], tuple[str, str, dict[str, Any]]] = {
 }
 """What NetCDF of spectra holds, and who renames it; wavespectra's own names need nobody."""
 _OVER = {"time", "freq", "dir"}
+_MISSING = "wave spectra need wavespectra: pip install 'umbilical[seas]'"
 
 
 def read_spectra(content: bytes, origin: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray] | None:
@@ -49,7 +49,7 @@ def read_spectra(content: bytes, origin: Path) -> tuple[np.ndarray, np.ndarray, 
         found = _of_netcdf(content, origin)
         return None if found is None else _of_one_site(found["efth"], origin)
     readers = [reader for begin, reader in _TEXTS.items() if re.match(begin, content)]
-    return _of_one_site(_partner(*readers[0], origin)(origin)["efth"], origin) if readers else None
+    return _of_one_site(_reader(*readers[0], origin)(origin)["efth"], origin) if readers else None
 
 
 def _of_netcdf(content: bytes, origin: Path) -> Any:
@@ -62,19 +62,16 @@ def _of_netcdf(content: bytes, origin: Path) -> Any:
             if names is None:
                 return None
             module, rename, options = _NETCDF[names]
-            return _partner(module, rename, origin)(data.load(), **options) if rename else data.load()
+            return _reader(module, rename, origin)(data.load(), **options) if rename else data.load()
     except MissingPartnerError:
         raise
     except Exception as error:  # whatever a decoder stumbles over, the file is what is wrong
         raise FileError(f"{origin}: the file is damaged or no NetCDF ({type(error).__name__})") from error
 
 
-def _partner(module: str, function: str, origin: Path) -> Any:
+def _reader(module: str, function: str, origin: Path) -> Any:
     """A reader of wavespectra whose errors say that the file is wrong."""
-    try:
-        right = getattr(import_module(f"wavespectra.input.{module}"), function)
-    except ImportError as error:
-        raise MissingPartnerError("wave spectra need wavespectra: pip install 'umbilical[seas]'") from error
+    right = getattr(import_partner(f"wavespectra.input.{module}", _MISSING), function)
 
     def read(*arguments: Any, **options: Any) -> Any:
         try:
@@ -86,10 +83,7 @@ def _partner(module: str, function: str, origin: Path) -> Any:
 
 
 def _of_one_site(spectra: Any, origin: Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    try:
-        import wavespectra  # noqa: F401 (it gives arrays the attribute spec)
-    except ImportError as error:
-        raise MissingPartnerError("wave spectra need wavespectra: pip install 'umbilical[seas]'") from error
+    import_partner("wavespectra", _MISSING)  # it gives arrays the attribute spec
     one = spectra.squeeze([name for name, size in spectra.sizes.items() if size == 1 and name not in _OVER])
     if set(one.dims) - _OVER or "time" not in one.dims:
         sizes = ", ".join(f"{name} {size}" for name, size in one.sizes.items())

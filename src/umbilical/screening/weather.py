@@ -106,14 +106,10 @@ class Weather(ResultFaces):
         """As plain data."""
         timed = self.seas.time is not None
         return {
-            **self.found.to_dict(),
-            "headline": self.summary(),
-            "workable_share": self.share,
-            "needed": self.needed,
-            "window_share": self.window_share if timed else None,
-            "windows": self.windows.tolist() if timed else None,
+            **self.found.to_dict(), "headline": self.summary(), "workable_share": self.share, "needed": self.needed,
+            "window_share": self.window_share if timed else None, "windows": self.windows.tolist() if timed else None,
             "seas": int(self.seas.height.size),
-        }
+        }  # fmt: skip
 
     def to_dataset(self) -> xarray.Dataset:
         """Limits and seas as labelled arrays with units."""
@@ -130,15 +126,10 @@ class Weather(ResultFaces):
 
 
 def weather(
-    operation: Operation,
-    criteria: Sequence[Criterion | str],
-    seas: Seas,
-    *,
-    depth: np.ndarray | Sequence[float],
-    heading: np.ndarray | Sequence[float],
-    needed: float = 3 * 3600.0,
+    operation: Operation, criteria: Sequence[Criterion | str], seas: Seas, *, depth: np.ndarray | Sequence[float],
+    heading: np.ndarray | Sequence[float], needed: float = 3 * 3600.0,
     progress: Callable[[float], None] = lambda share: None,
-) -> Weather:
+) -> Weather:  # fmt: skip
     """Hold the sea states of a place against the limits of an operation.
 
     Args:

@@ -11,16 +11,6 @@ from umbilical.sea.vessel import BoxVessel, Vessel, heave_of_point, motion_of_po
 from umbilical.sea.waves import orbital_velocity, wave_number
 
 __all__ = [
-    "BoxVessel",
-    "Components",
-    "RaoVessel",
-    "Spectrum",
-    "Vessel",
-    "discretise",
-    "heave_of_point",
-    "motion_of_point",
-    "orbital_velocity",
-    "sheave_of",
-    "vessel_of",
-    "wave_number",
-]
+    "BoxVessel", "Components", "RaoVessel", "Spectrum", "Vessel", "discretise", "heave_of_point", "motion_of_point",
+    "orbital_velocity", "sheave_of", "vessel_of", "wave_number",
+]  # fmt: skip

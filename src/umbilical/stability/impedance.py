@@ -28,7 +28,7 @@ import numpy as np
 
 from umbilical.plant.current import speeds_at
 from umbilical.plant.exogenous import current_at
-from umbilical.plant.forces.table import dampings, stiffness
+from umbilical.plant.forces.table import dampings, payload_spring
 from umbilical.relations.tension import hanging_of, net_gravity, tension, tension_gain
 from umbilical.relations.water import line_inertia, payload_inertia
 from umbilical.scenario.scenario import Scenario
@@ -119,7 +119,7 @@ def hanging_cable(scenario: Scenario, length: float) -> FixedLengthCable:
         weight=tension_gain(1.0, net, hung),
         length=length,
         pieces=pieces,
-        payload_spring=stiffness(scenario, water),
+        payload_spring=payload_spring(scenario, water),
     )
 
 

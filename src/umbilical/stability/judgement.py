@@ -96,28 +96,18 @@ def margins_of(cable: FixedLengthCable, loop: SampledLoop) -> Judgement:
     found = stability(swept)
     frequency = np.geomspace(swept.w[0], swept.w[-1], POINTS)
     response = loop_response(cable, loop, 1j * frequency)
-    return Judgement(
-        length=cable.length,
-        stability=found,
-        margins=find_limits(swept) if found.unstable == 0 else None,
-        modes=_modes(swept),
-        frequency=frequency,
-        reflection=np.abs(response.reflection()),
-        sweep=swept,
-    )
-
-
-def _modes(s: Sweep) -> tuple[Mode, ...]:
-    """Poles of the closed loop, from the round trips that reproduce a wave, mended by Newton's method."""
-    poles = [_polished(s, p) for p in near_poles(s, MODES)]
-    return tuple(Mode(abs(p.imag), -p.real, -p.real / abs(p)) for p in poles if np.isfinite(p))
+    limits = find_limits(swept) if found.unstable == 0 else None
+    poles = [_polished(swept, p) for p in near_poles(swept, MODES)]
+    modes = tuple(Mode(abs(p.imag), -p.real, -p.real / abs(p)) for p in poles if np.isfinite(p))
+    return Judgement(cable.length, found, limits, modes, frequency, np.abs(response.reflection()), swept)
 
 
 def _polished(s: Sweep, p: complex, steps: int = 30) -> complex:
     """The zero of 1 - echo R next to p, 1/s; NaN where the search leaves its neighbourhood."""
     start, size = p, 1e-6
     for _ in range(steps):
-        here, beside = (1.0 - _trip(s, q) for q in (p, p + 1j * size))
+        r = loop_response(s.cable, s.loop, np.array([p, p + 1j * size]))
+        here, beside = 1.0 - r.echo * r.reflection()
         move = -here * 1j * size / (beside - here)
         p += move
         if abs(p - start) > 2.0 * np.pi / s.cable.round_trip or p.imag <= 0.0:
@@ -125,11 +115,6 @@ def _polished(s: Sweep, p: complex, steps: int = 30) -> complex:
         if abs(move) < 1e-10 * abs(p):
             break
     return p
-
-
-def _trip(s: Sweep, p: complex) -> complex:
-    r = loop_response(s.cable, s.loop, np.array([p]))
-    return complex((r.echo * r.reflection())[0])
 
 
 def usual_thrust(scenario: Scenario) -> float:

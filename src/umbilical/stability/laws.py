@@ -12,7 +12,7 @@ import numpy as np
 
 from umbilical.control.allocation.table import ADAPTIVE
 from umbilical.control.cascade import CascadeState, MotorMemory, Motors, Outer, OuterMemory, update_motors, update_outer
-from umbilical.control.contract import MotorReadings, TipReadings, make_decision, make_readings
+from umbilical.control.contract import Decision, MotorReadings, Readings, TipReadings, make_decision, make_readings
 from umbilical.engine.linearise import Linear, LinearisationPoint, Names, linearise
 from umbilical.frames import Frame, leaves
 
@@ -27,8 +27,7 @@ def linear_outer_law(outer: Outer) -> Linear:
 
     States are what observers remember and the command that was held last, alpha_c.
     """
-    state, readings, decision = _memory(), make_readings(1), make_decision(1)
-    state.outer[0].updates = 1
+    state, readings, decision = _begun()
     remembered, kept = _reals(state.outer, OuterMemory)
     command = decision.outer[0]
 
@@ -55,8 +54,7 @@ def linear_motor_law(motors: Motors, number: int, speed: float, demand: float = 
     c = motors.nominal[[number]]
     c["voltage_limit"] = np.inf
     only = motors._replace(nominal=c)
-    state, readings, decision = _memory(), make_readings(1), make_decision(1)
-    state.outer[0].updates = 1
+    state, readings, decision = _begun()
     remembered, kept = _reals(state.motors, MotorMemory)
 
     def step(x: np.ndarray, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -115,8 +113,11 @@ def shares(motors: Motors, kappa: np.ndarray) -> np.ndarray:
     return signs * kappa[0] if motors.allocation.method == ADAPTIVE else signs / np.abs(coefficients).sum()
 
 
-def _memory() -> CascadeState:
-    return CascadeState(OuterMemory.many(1), np.zeros(2), MotorMemory.many(1))
+def _begun() -> tuple[CascadeState, Readings, Decision]:
+    """Memory of a controller of one motor after its first update, and what it reads and decides."""
+    state = CascadeState(OuterMemory.many(1), np.zeros(2), MotorMemory.many(1))
+    state.outer[0].updates = 1
+    return state, make_readings(1), make_decision(1)
 
 
 def _names(frame: type[Frame]) -> tuple[str, ...]:

@@ -166,14 +166,9 @@ def _as_lengths(scenario: Scenario, lengths: Sequence[float]) -> tuple[float, ..
     try:
         return tuple(map(float, lengths))
     except (TypeError, ValueError) as error:
-        problem = Problem(
-            "lengths",
-            f"{lengths!r} ({type(lengths).__name__})",
-            "a list of lengths, m",
-            "the second argument of margins",
-            "margins(scenario, [300.0, 400.0]); a controller of your own goes in as controller=",
-        )
-        raise ScenarioError([problem], scenario.name) from error
+        given, fix = f"{lengths!r} ({type(lengths).__name__})", "a controller of your own goes in as controller="
+        bound, reason = "a list of lengths, m, as in [300.0, 400.0]", "the second argument of margins"
+        raise ScenarioError([Problem("lengths", given, bound, reason, fix)], scenario.name) from error
 
 
 def _steps(progress: Callable[[float], None] | None, count: int) -> Callable[[T], T]:
@@ -194,20 +189,16 @@ def check_request(scenario: Scenario, lengths: Sequence[float], thrust: float, e
     Raises:
         ScenarioError: with every problem.
     """
-    problems = [
-        Problem("lengths", f"{length:g} m", "above 0, at most 20000 m", "a cable has a length", "e.g. 300,400")
-        for length in lengths
-        if not 0.0 < length <= 2e4
+    reason = "at no thrust a propeller has none to first order, and the loop is open"
+    span, grid = (
+        ("above 0, at most 20000 m", "a cable has a length"),
+        ("4 to 1000 elements", "it needs elements, and memory"),
+    )
+    cases = [
+        *((not 0.0 < x <= 2e4, "lengths", f"{x:g} m", *span, "e.g. 300,400") for x in lengths),
+        (not lengths, "lengths", "none", "one or more", "a loop has a cable of some length", "e.g. 300,400"),
+        (not 0.0 < abs(thrust) <= 1e9, "operating_thrust", f"{thrust:g} N", "not 0, at most 1e9 N", reason, "e.g. 50"),
+        *((not 4 <= number <= 1000, "grid", f"{number}", *grid, "e.g. 32,64,128") for number in elements),
     ]
-    if not lengths:
-        problems.append(Problem("lengths", "none", "one or more", "a loop has a cable of some length", "e.g. 300,400"))
-    if not 0.0 < abs(thrust) <= 1e9:
-        reason = "at no thrust a propeller has none to first order, and the loop is open"
-        problems.append(Problem("operating_thrust", f"{thrust:g} N", "not 0, at most 1e9 N", reason, "e.g. 50"))
-    problems += [
-        Problem("grid", f"{number}", "4 to 1000 elements", "a grid needs elements, and memory", "e.g. 32,64,128")
-        for number in elements
-        if not 4 <= number <= 1000
-    ]
-    if problems:
+    if problems := [Problem(*problem) for wrong, *problem in cases if wrong]:
         raise ScenarioError(problems, scenario.name)

@@ -165,17 +165,9 @@ def sweep_loop(cable: FixedLengthCable, loop: SampledLoop) -> Sweep:
     coarse = np.geomspace(first, last, int(PER_DECADE * np.log10(last / first)))
     w = _dense(coarse, 2.0 * np.pi / (PER_TURN * cable.round_trip))
     arc = first * np.exp(0.5j * np.pi * np.linspace(0.0, 1.0, ARC))
-    return Sweep(
-        cable=cable,
-        loop=loop,
-        coarse=coarse,
-        opened=_opened(cable, loop, 1j * coarse),
-        w=w,
-        echo=waves_at_rov(cable, 1j * w).echo,
-        arc=arc,
-        around=_opened(cable, loop, arc),
-        arc_echo=waves_at_rov(cable, arc).echo,
-    )
+    opened, around = (_opened(cable, loop, p) for p in (1j * coarse, arc))
+    echo, arc_echo = (waves_at_rov(cable, p).echo for p in (1j * w, arc))
+    return Sweep(cable, loop, coarse, opened, w, echo, arc, around, arc_echo)
 
 
 def _opened(cable: FixedLengthCable, loop: SampledLoop, p: np.ndarray) -> Opened:
@@ -232,8 +224,11 @@ def _growing_echoes(s: Sweep, factor: Factor) -> tuple[int, Growth | None]:
     left, right = np.abs(np.imag(trip)[places]), np.abs(np.imag(trip)[places + 1])
     size = (right * np.abs(trip[places]) + left * np.abs(trip[places + 1])) / (left + right)
     growing = (size > 1.0) & (np.real(trip)[places] > 0.0)
-    count = int(np.where(upward, -1, 1)[growing].sum())
-    return count, _fastest(w, trip, places[growing], size[growing])
+    if not growing.any():
+        return 0, None
+    rates = np.log(size[growing]) / _delay(w, trip, places[growing])
+    fastest = Growth(float(w[places[growing][np.argmax(rates)]]), float(rates.max()))
+    return int(np.where(upward, -1, 1)[growing].sum()), fastest
 
 
 def _closest(curve: np.ndarray) -> np.ndarray:
@@ -270,14 +265,6 @@ def crossings(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     positive = values > 0.0
     places = np.flatnonzero(positive[1:] != positive[:-1])
     return places, positive[places + 1]
-
-
-def _fastest(w: np.ndarray, trip: np.ndarray, places: np.ndarray, size: np.ndarray) -> Growth | None:
-    if not places.size:
-        return None
-    rates = np.log(size) / _delay(w, trip, places)
-    worst = int(np.argmax(rates))
-    return Growth(float(w[places[worst]]), float(rates[worst]))
 
 
 def _delay(w: np.ndarray, trip: np.ndarray, places: np.ndarray) -> np.ndarray:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import factorial
 from typing import Any
 
 import numpy as np
@@ -75,7 +76,9 @@ def linear_period(scenario: Scenario, loop: SampledLoop, length: float) -> Linea
     still = scenario.replace({"winch": {"law": "constant", "length": length}})
     plant = linearise_plant(still)
     substeps = round(loop.period / plant.step)
-    step, force = _cable_step(plant), _force_entry(plant)
+    column = np.vstack([plant.b, np.zeros((2 * plant.a.shape[0], 1))]) * plant.step
+    # What a force at the end of a step, at its start and one step before adds in the step.
+    step, force = _cable_step(plant), [weight * column for weight in IMPLICIT[1]]
     if loop.drives:
         a, b = _driven(step, force, loop, plant.step, substeps)
     else:
@@ -94,12 +97,6 @@ def _cable_step(plant: LinearPlant) -> Sparse:
     one: Sparse = sparse.eye_array(plant.a.shape[0])
     blocks: Sparse = [[one + now * rates, last * one, before * one], [rates, None, None], [None, one, None]]
     return sparse.csc_array(sparse.block_array(blocks))
-
-
-def _force_entry(plant: LinearPlant) -> list[np.ndarray]:
-    """What a force at the end of a step, at its start and one step before adds in the step, columns."""
-    column = np.vstack([plant.b, np.zeros((2 * plant.a.shape[0], 1))]) * plant.step
-    return [weight * column for weight in IMPLICIT[1]]
 
 
 def _driven(
@@ -135,27 +132,19 @@ def _driven(
     cable = slice(0, n)
     sub[cable, cable] = step
     sub[cable, n] = before[:, 0]
-    touched = np.flatnonzero(force[0])
-    for row in touched:
+    for row in np.flatnonzero(end):
         sub[[row], :] = sub[[row], :].toarray() + end[row] * thrust_next + start[row] * thrust_now
     sub[[n], :] = thrust_now
     enter[cable, cable] = sparse.eye_array(n)
     enter[n, n] = 1.0
-    a: Sparse = sparse.csc_array(sub)
-    whole = a
-    for _ in range(substeps - 1):
-        whole = sparse.csc_array(a @ whole)
+    whole, _ = _power(sparse.csc_array(sub), sparse.csc_array((size, 1)), substeps)
     return sparse.csc_array(whole @ sparse.csc_array(enter)), sparse.csc_array(whole @ enter_demand)
 
 
 def _runge_kutta(drive: Drive, dt: float) -> tuple[np.ndarray, np.ndarray]:
     """The classical step of order 4 of a linear system under a held voltage: the exponential's first terms."""
-    block = np.zeros((3, 3))
-    block[:2, :2], block[:2, 2:] = drive.rates * dt, drive.volts * dt
-    step, term = np.eye(3), np.eye(3)
-    for order in range(1, 5):
-        term = term @ block / order
-        step = step + term
+    block = dt * np.block([[drive.rates, drive.volts], [np.zeros((1, 3))]])
+    step = np.sum([np.linalg.matrix_power(block, order) / factorial(order) for order in range(5)], axis=0)
     return step[:2, :2], step[:2, 2:]
 
 
@@ -171,10 +160,9 @@ def _aged(a: Sparse, b: Sparse, c: np.ndarray, ages: list[int]) -> tuple[Sparse,
     """Readings that come late by whole periods: each keeps its last samples as states."""
     for row, age in enumerate(ages):
         for _ in range(age):
-            a = sparse.csc_array(
-                sparse.block_array([[a, None], [sparse.csc_array(c[[row]]), sparse.csc_array((1, 1))]])
-            )
-            b = sparse.csc_array(sparse.vstack([b, sparse.csc_array((1, 1))]))
+            none = sparse.csc_array((1, 1))
+            a = sparse.csc_array(sparse.block_array([[a, None], [sparse.csc_array(c[[row]]), none]]))
+            b = sparse.csc_array(sparse.vstack([b, none]))
             c = np.hstack([c, np.zeros((4, 1))])
             c[row] = 0.0
             c[row, -1] = 1.0

@@ -126,14 +126,9 @@ def sampled_loop(
         settings = with_known_factors(settings)
         law = linearise_controller(controller, _at_rest(scenario, settings, operating_thrust, length))
         every = round(controller.period / period)
-    return SampledLoop(
-        period=period,
-        every=every,
-        law=law,
-        ages=tuple(round(getattr(scenario.sensors, name).latency / period) * period for name in READINGS),
-        drives=_drives(scenario, settings, operating_thrust, 0.0),
-        operating_thrust=operating_thrust,
-    )
+    ages = tuple(round(getattr(scenario.sensors, name).latency / period) * period for name in READINGS)
+    drives = _drives(scenario, settings, operating_thrust, 0.0)
+    return SampledLoop(period, every, law, ages, drives, operating_thrust)
 
 
 def _at_rest(scenario: Scenario, settings: CascadeSettings, thrust: float, length: float) -> Rest:

@@ -60,9 +60,9 @@ def linearise_controller(controller: Controller, rest: Rest) -> Linear:
     """
     try:
         return _linearised(controller, rest)
-    except Doubt:
-        raise
     except Exception as error:
+        if isinstance(error, Doubt):
+            raise
         raise Doubt(f"it fails near the operating point: {type(error).__name__}: {error}") from error
 
 
@@ -136,10 +136,8 @@ def _compare(law: Linear, settled: tuple[Any, Any], rest: Rest, begin: float) ->
     apart, size = np.abs(np.subtract(said, linear)).max(), np.abs(said).max()
     if not apart <= CLOSE * size + STILL * abs(steady):
         share = f"{apart / max(size, 1e-300):.1%}"
-        raise Doubt(
-            f"what it commands from t = {begin:g} s on differs from its linearisation by {share}: it is not smooth "
-            "at the operating point, changes with time, or reads or remembers something else"
-        )
+        why = "it is not smooth at the operating point, changes with time, or reads or remembers something else"
+        raise Doubt(f"what it commands from t = {begin:g} s on differs from its linearisation by {share}: {why}")
 
 
 def _readings() -> np.ndarray:
@@ -153,14 +151,8 @@ def _read(seen: Measurement, u: np.ndarray, motors: float = 0.0) -> Measurement:
     ``motors`` is added to speeds and currents, which a law of the ROV's readings does not answer.
     """
     rates = {} if seen.tip_velocity is None else {"tip_velocity": float(u[2]), "tip_slope_rate": float(u[3])}
-    return dataclasses.replace(
-        seen,
-        tip_displacement=float(u[0]),
-        tip_slope=float(u[1]),
-        motor_speed=seen.motor_speed + motors,
-        motor_current=seen.motor_current + motors,
-        **rates,
-    )
+    driven = {"motor_speed": seen.motor_speed + motors, "motor_current": seen.motor_current + motors}
+    return dataclasses.replace(seen, tip_displacement=float(u[0]), tip_slope=float(u[1]), **driven, **rates)
 
 
 def _update(pair: tuple[Any, Any], t: float, seen: Measurement) -> tuple[float, tuple[Any, Any]]:

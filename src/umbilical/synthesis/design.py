@@ -73,16 +73,10 @@ class Design(ResultFaces):
 
 
 def design(
-    scenario: Scenario,
-    objective: Objective = "both",
-    *,
-    inner: bool = False,
-    periods: Sequence[float] = (),
-    demands: Demands | None = None,
-    limits: Limits | None = None,
-    operating_thrust: float | None = None,
+    scenario: Scenario, objective: Objective = "both", *, inner: bool = False, periods: Sequence[float] = (),
+    demands: Demands | None = None, limits: Limits | None = None, operating_thrust: float | None = None,
     progress: Callable[[float], None] | None = None,
-) -> Design:
+) -> Design:  # fmt: skip
     """Choose beta, k_a, the observers' constants and k_s for the thrusters that a scenario has.
 
     Args:
@@ -131,16 +125,12 @@ def design(
     scores = _scores_over(betas, task, found.values)
     motor_gains_kept = bool(inner_knobs(task.scenario)) and not inner
     return Design(
-        objective=objective,
-        values=paces[best] | found.values,
-        before=before,
-        after=found.side,
+        objective=objective, values=paces[best] | found.values, before=before, after=found.side,
         missing=tuple(_missing(found, limits)),
-        limited_by=tuple(_limited_by(task, found, limits, motor_gains_kept=motor_gains_kept)),
-        betas=betas,
+        limited_by=tuple(_limited_by(task, found, limits, motor_gains_kept=motor_gains_kept)), betas=betas,
         reflections=np.array([score.reflection for score in scores]),
         followed=np.array([score.sound for score in scores]),
-    )
+    )  # fmt: skip
 
 
 def _rank(found: DesignOutcome, limits: Limits, objective: Objective) -> tuple[tuple[bool, bool, float], float]:
@@ -166,8 +156,8 @@ def _missing(found: DesignOutcome, limits: Limits) -> Iterator[str]:
         yield f"the simulation did not complete: {after.trial.run.reason}"
     for name, (value, limit) in limits.exceeded(after).items():
         unit = UNITS[name]
-        words = f"{name} {value:.3g} {unit} above the limit of {limit:.3g} {unit}"
-        yield words + ("; searches under lower ceilings found no gains that keep it" if name in found.limited else "")
+        searched = "; searches under lower ceilings found no gains that keep it" if name in found.limited else ""
+        yield f"{name} {value:.3g} {unit} above the limit of {limit:.3g} {unit}{searched}"
     if found.quietest and (not after.kept or after.noise.rms > limits.noise):
         margins = "kept" if found.quietest.kept else "missed"
         yield f"a search for the least noise of a voltage ended at {found.quietest.noise.rms:.3g} V, margins {margins}"

@@ -169,19 +169,14 @@ def _round(task: DesignTask, begun: Values | None, progress: Callable[[float], N
 
 def _settled(task: DesignTask, near: Values, progress: Callable[[float], None]) -> Values:
     """Rounded gains that keep the demands: at the edge of what is allowed, and further inside where they do not."""
-    values = near
+    values, period = near, task.scenario.control.period
     for reserves in RESERVES:
         values = refine(replace(task, demands=task.demands.beyond(reserves)), near, progress)
-        if _keeps(task, values):
+        if task.scorer().score(task.loop(values)).sound and all(
+            task.demands.met_by(j.margins, period) for j in _report(task, values).judgements
+        ):
             break
     return values
-
-
-def _keeps(task: DesignTask, values: Values) -> bool:
-    if not task.scorer().score(task.loop(values)).sound:
-        return False
-    period = task.scenario.control.period
-    return all(task.demands.met_by(j.margins, period) for j in _report(task, values).judgements)
 
 
 def _lowered(task: DesignTask, now: Evaluation, over: Excess) -> dict[str, Effort | float]:

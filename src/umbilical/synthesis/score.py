@@ -46,11 +46,8 @@ class Demands:
 
     def beyond(self, reserves: float) -> Demands:
         """The demands and some reserves more."""
-        return Demands(
-            self.gain * RESERVE_GAIN**reserves,
-            self.phase + reserves * RESERVE_PHASE,
-            self.periods + reserves * RESERVE_PERIODS,
-        )
+        gain, phase = self.gain * RESERVE_GAIN**reserves, self.phase + reserves * RESERVE_PHASE
+        return Demands(gain, phase, self.periods + reserves * RESERVE_PERIODS)
 
     def met_by(self, margins: Margins | None, period: float) -> bool:
         """Whether a loop of this control period, s, is stable and has the margins."""
@@ -164,21 +161,14 @@ class Scorer:
         if not (self.efforts and loop.drives):
             return Effort(0.0, 0.0, 0.0)
         volts = np.max(np.abs(demands_to_volts(loop, r.p)), axis=0)
-        commanded = np.abs(self._commanded_per_slope(loop, r))
+        # Commanded thrust per slope put on at the ROV, N: read by the law, and a pull that it holds against.
+        read, held = loop.law.response(np.exp(r.p * loop.outer_period))[:, 0, 1], r.up2 / r.up1
+        commanded = np.abs((read - self.cable.tip_tension * held / r.force) / (1.0 - held))
         voltage, thrust = (volts * commanded)[ARC:], commanded[ARC:]
         shares = np.gradient(np.log(self.w))
         sudden, fast = self.w > self.w[self.band][-1], self.w > 2.0 * np.pi * CHATTER
-        return Effort(
-            voltage=float((voltage * shares)[sudden].sum()),
-            speed=float((thrust * shares)[sudden].sum()),
-            chatter=float(np.sqrt((voltage**2 / self.w * shares)[fast].sum())),
-        )
-
-    def _commanded_per_slope(self, loop: SampledLoop, r: LoopResponse) -> np.ndarray:
-        """Commanded thrust per slope put on at the ROV, N: read by the law, and a pull that it holds against."""
-        read = loop.law.response(np.exp(r.p * loop.outer_period))[:, 0, 1]
-        held = r.up2 / r.up1
-        return (read - self.cable.tip_tension * held / r.force) / (1.0 - held)
+        swings = float((voltage * shares)[sudden].sum()), float((thrust * shares)[sudden].sum())
+        return Effort(*swings, float(np.sqrt((voltage**2 / self.w * shares)[fast].sum())))
 
     def motor_lag(self, loop: SampledLoop, frequency: float) -> tuple[float, float]:
         """Lag of the motors and of everything else in the loop's own electronics at a frequency, rad."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -204,29 +205,25 @@ class Scores:
         self, task: DesignTask, scorer: Scorer, generations: int = 0, progress: Callable[[float], None] | None = None
     ) -> None:
         self._task, self._judge = task, scorer
-        self._generations, self._progress = generations, progress
+        self._generations, self._progress, self._done = generations, progress, 0
         self._before = self._judge.score(sampled_loop(task.present or task.scenario, task.thrust))
-        self._known: dict[bytes, Score] = {}
-        self._noise: dict[bytes, float] = {}
-        self._done = 0
+        self._scored, self._heard = cache(self._score), cache(self._noise)
 
     def score(self, x: np.ndarray) -> Score:
         """All of it."""
-        x = np.round(x, POINT_DIGITS)
-        key = x.tobytes()
-        if key not in self._known:
-            self._known[key] = self._judge.score(self._task.loop(self._task.values(x)))
-        return self._known[key]
+        return self._scored(np.round(x, POINT_DIGITS).tobytes())
 
     def noise(self, x: np.ndarray) -> float:
         """Of a voltage, at rest and at the operating thrust, V."""
-        x, task = np.round(x, POINT_DIGITS), self._task
-        key = x.tobytes()
-        if key not in self._noise:
-            values = task.values(x)
-            new = changed(task.scenario, values)
-            self._noise[key] = voltage_noise(self._judge, task.loop(values), new, (0.0, task.thrust)).rms
-        return self._noise[key]
+        return self._heard(np.round(x, POINT_DIGITS).tobytes())
+
+    def _score(self, point: bytes) -> Score:
+        return self._judge.score(self._task.loop(self._task.values(np.frombuffer(point))))
+
+    def _noise(self, point: bytes) -> float:
+        task, values = self._task, self._task.values(np.frombuffer(point))
+        new = changed(task.scenario, values)
+        return voltage_noise(self._judge, task.loop(values), new, (0.0, task.thrust)).rms
 
     def objective(self, x: np.ndarray) -> float:
         """What shall be small."""

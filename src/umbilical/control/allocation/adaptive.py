@@ -88,31 +88,22 @@ def adaptation(control: Control, motors: Sequence[Motor], ideal_thruster: bool) 
         return
     if ideal_thruster:
         yield Problem(
-            "control.allocation.method",
-            '"adaptive"',
-            '"known" with ideal_thruster',
-            "an ideal thruster has no motors to share the thrust",
-            "set ideal_thruster = false",
-        )
+            "control.allocation.method", '"adaptive"', '"known" with ideal_thruster',
+            "an ideal thruster has no motors to share the thrust", "set ideal_thruster = false",
+        )  # fmt: skip
     for name in ("rates", "initial", "lower", "upper"):
         values = getattr(law, name)
         if values is not None and len(values) != len(motors) + 1:
             yield Problem(
-                f"control.allocation.{name}",
-                f"{len(values)} entries",
-                f"{len(motors) + 1} entries",
-                f"kappa_0 and one more for each of the {len(motors)} motors",
-                "one entry each",
-            )
+                f"control.allocation.{name}", f"{len(values)} entries", f"{len(motors) + 1} entries",
+                f"kappa_0 and one more for each of the {len(motors)} motors", "one entry each",
+            )  # fmt: skip
     for number, rate in enumerate(law.rates, start=1):
         if rate <= 0.0:
             yield Problem(
-                f"control.allocation.rates.{number}",
-                f"{rate:g}",
-                "above 0",
-                "a rate of the wrong sign adapts away from the fault",
-                "a positive rate",
-            )
+                f"control.allocation.rates.{number}", f"{rate:g}", "above 0",
+                "a rate of the wrong sign adapts away from the fault", "a positive rate",
+            )  # fmt: skip
     yield from _box(law)
 
 

@@ -72,12 +72,9 @@ def motor_loop(control: Control, ideal_thruster: bool) -> Iterator[Finding]:
     """Driven motors have a loop that drives them."""
     if drives_motors(control, ideal_thruster) and control.motor_loop is None:
         yield Problem(
-            "control.motor_loop",
-            "missing",
-            "required",
-            "the motors must follow the demanded thrust",
+            "control.motor_loop", "missing", "required", "the motors must follow the demanded thrust",
             "add [control.motor_loop], or set ideal_thruster = true",
-        )
+        )  # fmt: skip
 
 
 def sampled_gains(control: Control, ideal_thruster: bool, motors: Sequence[Motor]) -> Iterator[Finding]:

@@ -79,12 +79,9 @@ def sections_of_the_law(control: Control) -> Iterator[Finding]:
     for name in control.law.observers:
         if getattr(control, name) is None:
             yield Problem(
-                f"control.{name}",
-                "missing",
-                "required",
-                f"the law '{control.law.kind}' reads it",
+                f"control.{name}", "missing", "required", f"the law '{control.law.kind}' reads it",
                 f"add [control.{name}] with time_constant and damping",
-            )
+            )  # fmt: skip
 
 
 def ideal_sensors(control: Control, sensors: Sensors) -> Iterator[Finding]:

@@ -34,7 +34,7 @@ def no_decay(**_: Any) -> None:
     return
 
 
-def unchanged(scenario: Scenario, water: np.ndarray) -> float:
+def no_change(scenario: Scenario, water: np.ndarray) -> float:
     """A force that does not change with the velocity, or not with the displacement."""
     return 0.0
 
@@ -53,9 +53,9 @@ class Force(NamedTuple):
 
     work: str
     on: str = "cable"
-    damping: Callable[[Scenario, np.ndarray], Any] = unchanged
+    damping: Callable[[Scenario, np.ndarray], Any] = no_change
     decay: Callable[..., Decay | None] = no_decay
-    stiffness: Callable[[Scenario, np.ndarray], float] = unchanged
+    stiffness: Callable[[Scenario, np.ndarray], float] = no_change
 
 
 @kernel

@@ -316,6 +316,6 @@ def dampings(scenario: Scenario, water: np.ndarray, on: str) -> list[Any]:
     return [force.damping(scenario, water) for force in FORCES if force.on == on]
 
 
-def stiffness(scenario: Scenario, water: np.ndarray) -> float:
+def payload_spring(scenario: Scenario, water: np.ndarray) -> float:
     """What all forces hold the ROV with in water that passes, N/m."""
     return sum(force.stiffness(scenario, water) for force in FORCES)
