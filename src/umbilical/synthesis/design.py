@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from umbilical.errors import Problem, ScenarioError
+from umbilical.errors import Problem, ScenarioError, expect
 from umbilical.library import admit
 from umbilical.result import ResultFaces
 from umbilical.scenario.scenario import Scenario
@@ -201,6 +201,7 @@ def check_design(scenario: Scenario) -> None:
     Raises:
         ScenarioError: no boundary law, or one without its observers.
     """
+    expect(scenario, "Scenario", "load")
     control, law = scenario.control, scenario.control.law
     observed = control.velocity_observer and control.slope_observer and control.disturbance_observer
     if not law.boundary_gains or law.reads_rates or not observed:
