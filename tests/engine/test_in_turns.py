@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+import pytest
 
-from umbilical.engine.simulate import in_turns, measure, measuring
+from umbilical.engine.simulate import Common, in_turns, measure, measuring
+from umbilical.errors import ScenarioError
 from umbilical.library import load
 
 SHORT = {"duration": 6.0, "grid.elements": 8}  # more than one stretch
@@ -18,7 +19,19 @@ def test_runs_in_turns_share_the_outside_world() -> None:
         load("paper", SHORT | {"environment.payload_force.1.value": 50.0}),
         load("paper", SHORT | {"control.period": 0.0005}),
     ]
-    samplers: list[Any] = []
-    together = in_turns([measuring(scenario, samplers=samplers) for scenario in scenarios])
+    common = Common()
+    together = in_turns([measuring(scenario, common=common) for scenario in scenarios])
     assert together == [measure(scenario) for scenario in scenarios]
-    assert len(samplers) == 2
+    assert len(common.samplers) == 2
+
+
+def test_a_run_in_turns_is_checked_where_it_differs() -> None:
+    """After a sound scenario the bad section of another is found, alone and beside what stayed the same."""
+    sound, common = load("paper", SHORT), Common()
+    bad = sound.replace({"control.slope_observer.time_constant": 1e-4}), sound.replace({"payload.mass": 1e-3})
+    for scenario in bad:
+        with pytest.raises(ScenarioError) as alone:
+            measure(scenario)
+        with pytest.raises(ScenarioError) as beside:
+            in_turns([measuring(sound, common=common), measuring(scenario, common=common)])
+        assert beside.value.problems == alone.value.problems

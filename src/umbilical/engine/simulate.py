@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import perf_counter
 from traceback import extract_tb
@@ -33,6 +34,19 @@ class MeasuredRun(NamedTuple):
     reason: str
     end_time: float
     metrics: dict[str, float]
+
+
+@dataclass
+class Common:
+    """What need not be done again for a run that others are taken in turns with.
+
+    Attributes:
+        samplers: of what acts from outside, one for all runs where that is the same.
+        admitted: the last scenario that was.
+    """
+
+    samplers: list[Any] = field(default_factory=list)
+    admitted: Scenario | None = None
 
 
 def simulate(
@@ -130,15 +144,15 @@ def measure(scenario: Scenario, controller: Controller | None = None) -> Measure
 
 
 def measuring(
-    scenario: Scenario, controller: Controller | None = None, samplers: list[Any] | None = None
+    scenario: Scenario, controller: Controller | None = None, common: Common | None = None
 ) -> Generator[None, None, MeasuredRun]:
     """Do :func:`measure` piece by piece, and return what it does.
 
     Args:
         scenario, controller: as there.
-        samplers: one list for runs that are taken in turns, empty at first: those with the same outside world share it.
+        common: one for all runs that are taken in turns.
     """
-    return (yield from _measuring(_on_its_grid(scenario, controller)[0], controller, samplers))
+    return (yield from _measuring(_on_its_grid(scenario, controller)[0], controller, common or Common()))
 
 
 def in_turns(runs: Sequence[Generator[None, None, T]]) -> list[T]:
@@ -159,22 +173,20 @@ def _whole(run: Generator[None, None, T]) -> T:
 
 
 def _measure(scenario: Scenario, controller: Controller | None) -> MeasuredRun:
-    return _whole(_measuring(scenario, controller, None))
+    return _whole(_measuring(scenario, controller, Common()))
 
 
-def _measuring(
-    scenario: Scenario, controller: Controller | None, samplers: list[Any] | None
-) -> Generator[None, None, MeasuredRun]:
+def _measuring(scenario: Scenario, controller: Controller | None, common: Common) -> Generator[None, None, MeasuredRun]:
     if controller is not None:
         episode = Episode(scenario, controller.period, stored=False, owner=type(controller).__name__)
         if (error := follow(episode, controller)) is not None:
             raise error
         ending = episode.end()
         return MeasuredRun(ending.status, ending.reason, ending.time, episode.metrics())
-    admit(scenario)
+    admit(scenario, common.admitted)
+    common.admitted = scenario
     model = make_model(scenario, stored=False)
-    if samplers is not None:
-        model.sample_with(samplers)
+    model.sample_with(common.samplers)
     ending, _ = yield from _run(scenario, model, None)
     return MeasuredRun(ending.status, ending.reason, ending.time, model.metrics())
 

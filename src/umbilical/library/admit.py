@@ -19,8 +19,12 @@ from umbilical.scenario.findings import Finding, Notice
 from umbilical.scenario.scenario import validate
 
 
-def admit(scenario: Scenario) -> tuple[Notice, ...]:
+def admit(scenario: Scenario, like: Scenario | None = None) -> tuple[Notice, ...]:
     """Check the whole run before its first step.
+
+    Args:
+        scenario: what is to be run.
+        like: one that was admitted; checks that read only sections in which both are equal are not made again.
 
     Returns:
         What is allowed but probably not meant, such as a fault after the end of the run.
@@ -33,7 +37,7 @@ def admit(scenario: Scenario) -> tuple[Notice, ...]:
     ()
     """
     expect(scenario, "Scenario", "load")
-    findings = _findings(_sections(scenario))
+    findings = _findings(_sections(scenario), _sections(like) if like else {})
     if problems := _only_problems(findings):
         raise ScenarioError(problems, scenario.name)
     return tuple(finding for finding in findings if isinstance(finding, Notice))
@@ -62,15 +66,18 @@ def admit_data(data: Mapping[str, Any], origin: str, problems: Iterable[Problem]
     return scenario
 
 
-def _findings(sections: Mapping[str, Any]) -> list[Finding]:
-    """What the checks find whose sections are all there."""
+def _findings(sections: Mapping[str, Any], checked: Mapping[str, Any] | None = None) -> list[Finding]:
+    """What the checks find whose sections are all there, less those whose sections are all ``checked``."""
+    checked = checked or {}
+    same = {name for name in checked if name in sections and checked[name] == sections[name]}
     if sections.keys() >= set(MovingCable._fields):
         moving = MovingCable(*(sections[name] for name in MovingCable._fields))
         sections = {**sections, "moving": moving}
+        same |= {"moving"} if same >= set(MovingCable._fields) else set()
     able = [
         (check, needs)
         for check in checks_for(sections.get("model", "string"))
-        if sections.keys() >= (needs := _parameters(check))
+        if sections.keys() >= (needs := _parameters(check)) and not same >= needs
     ]
     # Overflow in a check is an answer (an infinite wave speed breaks its bound), not a fault of the check.
     with np.errstate(all="ignore"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Generator
 from typing import Any, NamedTuple
 
-from umbilical.engine.simulate import MeasuredRun, in_turns, measuring, simulate
+from umbilical.engine.simulate import Common, MeasuredRun, in_turns, measuring, simulate
 from umbilical.errors import ControllerError, FileError, ScenarioError
 from umbilical.formats import to_netcdf
 from umbilical.quantities import METRICS
@@ -66,20 +66,20 @@ def run_member(draws: Draws, member: Member) -> Row:
     >>> [cell.status for cell in run_member(draws, draws.member(1)).cells]
     ['COMPLETED', 'COMPLETED']
     """
-    stored, samplers = draws.study.trajectories.keep == "all", []
-    found = in_turns([_run_cell(draws, member, arm, stored, samplers) for arm in range(len(draws.study.arms))])
+    stored, common = draws.study.trajectories.keep == "all", Common()
+    found = in_turns([_run_cell(draws, member, arm, stored, common) for arm in range(len(draws.study.arms))])
     return Row(member.number, tuple(cell for cell, _ in found), tuple(run for _, run in found) if stored else ())
 
 
 def _run_cell(
-    draws: Draws, member: Member, arm: int, stored: bool, samplers: list[Any]
+    draws: Draws, member: Member, arm: int, stored: bool, common: Common
 ) -> Generator[None, None, tuple[Cell, bytes | None]]:
     try:
         scenario = draws.scenario(member, arm)
         controller = make_controller(draws.study.arms[arm].controller, scenario)
         if stored:
             return _stored(scenario, controller)
-        return _cell((yield from measuring(scenario, controller, samplers))), None
+        return _cell((yield from measuring(scenario, controller, common))), None
     except ScenarioError as error:
         problem = error.problems[0]
         return _without_metrics("REFUSED", f"{problem.key} = {problem.value}: allowed is {problem.bound}"), None
