@@ -15,7 +15,7 @@ from umbilical.cli.progress import bar
 from umbilical.faces.verification import shown_numbers
 from umbilical.plots import plot_convergence, save_figure
 from umbilical.tables import markdown
-from umbilical.verify import Verification, verify_all, water_response
+from umbilical.verify import Verification, verify_all, water
 from umbilical.verify.cases import Check, Result, worst_ratio
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
@@ -28,7 +28,7 @@ def text(found: Verification) -> str:
     """The page: what stands in make_validation.md, with headline and tables in their places."""
     note = "<!-- Written by tools/make_validation.py; edit its text in tools/make_validation.md. -->"
     body = TEXT.read_text(encoding="utf-8").replace("{headline}", found.headline).replace("{picture}", PICTURE)
-    body = body.replace("{drag}", water_response.answers_table())
+    body = body.replace("{drag}", water.answers_table())
     body = body.replace("{beside}", beside(found))
     title, _, rest = body.replace("{tables}", tables(found)).partition("\n")
     return f"{title}\n\n{note}\n{rest}"

@@ -6,10 +6,10 @@ import json
 
 import pytest
 
-from umbilical.verify import motor, moving_end
+from umbilical.verify import control, moving_end
 from umbilical.verify.cases import Case, CaseError, Check
 
-FEW = {"Motor": motor.CASES[:2]}
+FEW = {"Motor": control.MOTORS[:2]}
 
 
 def _case(find, needs: str = "") -> Case:
@@ -57,7 +57,7 @@ def test_json_is_one_object_with_every_number(umbilical, few):
 
 @pytest.mark.parametrize("find", [wrong, diverged])
 def test_one_that_does_not_hold_has_its_exit_code(umbilical, monkeypatch, find):
-    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": (*motor.CASES[:1], _case(find))})
+    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": (*control.MOTORS[:1], _case(find))})
     done = umbilical("verify")
     assert done.code == 7
     assert "FAILS" in done.out
@@ -66,7 +66,7 @@ def test_one_that_does_not_hold_has_its_exit_code(umbilical, monkeypatch, find):
 
 def test_a_case_that_lacks_a_package_is_skipped_and_says_so(umbilical, monkeypatch):
     skipped = _case(wrong, needs="no_such_package")
-    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": motor.CASES[:1], "Other": (skipped,)})
+    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": control.MOTORS[:1], "Other": (skipped,)})
     done = umbilical("verify")
     assert done.code == 0
     assert "skipped: needs no_such_package" in done.out
@@ -83,7 +83,7 @@ def test_where_nothing_could_be_checked_nothing_is_verified(umbilical, monkeypat
 
 def test_quick_leaves_out_what_takes_long(umbilical, monkeypatch):
     slow = Case("slow", "", "", wrong, quick=False)
-    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": (*motor.CASES[:1], slow)})
+    monkeypatch.setattr("umbilical.verify.verification.FAMILIES", {"Motor": (*control.MOTORS[:1], slow)})
     assert umbilical("verify", "--quick").code == 0
     assert umbilical("verify").code == 7
 

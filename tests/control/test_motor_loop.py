@@ -10,11 +10,11 @@ from umbilical.control.motor.command_filter import Reference, advance_filter, ma
 from umbilical.frames import numbers
 from umbilical.relations.formulas import motor_constants, soft_signed_root
 from umbilical.scenario.hardware import Motor
-from umbilical.verify import motor
+from umbilical.verify import control
 
 pytestmark = pytest.mark.nojit
 
-MOTOR = Motor.model_validate(motor.MOTOR)
+MOTOR = Motor.model_validate(control.MOTOR)
 PERIOD, POLE = 1e-3, 200.0
 GAINS = Backstepping(50.0, 500.0, 1.5, 0.1, 2.0, 4.0, 120.0)
 

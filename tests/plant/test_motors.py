@@ -7,7 +7,7 @@ import pytest
 from umbilical.plant.exogenous import MotorExogenous
 from umbilical.plant.motors import applied_voltage, make_motors
 from umbilical.scenario.hardware import Motor
-from umbilical.verify import motor
+from umbilical.verify.control import MOTOR
 
 pytestmark = pytest.mark.nojit
 
@@ -22,6 +22,6 @@ pytestmark = pytest.mark.nojit
     ],
 )
 def test_the_limit_comes_before_the_faults(wanted: float, effectiveness: float, stuck: float, reached: float) -> None:
-    motors = make_motors([Motor.model_validate(motor.MOTOR | {"voltage_limit": 10.0})])
+    motors = make_motors([Motor.model_validate(MOTOR | {"voltage_limit": 10.0})])
     outside = MotorExogenous.one(drive_effectiveness=effectiveness, stuck_voltage=stuck)
     assert applied_voltage(motors[0], wanted, outside) == reached

@@ -8,13 +8,13 @@ import pytest
 from tests.support.verdicts import assert_holds, each
 from umbilical.relations.formulas import steady_speed
 from umbilical.scenario.hardware import Motor
-from umbilical.verify import motor
+from umbilical.verify import control
 from umbilical.verify.cases import Case
-from umbilical.verify.motor import MOTOR, VOLTAGE
+from umbilical.verify.control import MOTOR, VOLTAGE
 from umbilical.verify.references.motor import steady_state
 
 
-@each(motor.CASES)
+@each(control.MOTORS)
 def test_case(case: Case) -> None:
     assert_holds(case)
 

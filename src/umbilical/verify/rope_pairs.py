@@ -19,6 +19,7 @@ from umbilical.verify import engine
 from umbilical.verify.cases import Cases, Checks, at_least, close, same_history, small
 from umbilical.verify.invariance import TWO_RUNS, sum_missed
 from umbilical.verify.rope import G, quintic_winch, recorded, steady, waving
+from umbilical.verify.water_pairs import BOX, waves_on_ship
 
 CASES = Cases()
 Turn = Callable[[np.ndarray], np.ndarray]
@@ -148,22 +149,19 @@ def _slowed() -> Checks:
     yield close("frequencies across, rad/s", wet, exact, 1e-5, "sqrt(rho/(rho + rho_a))")
 
 
-PRESETS: dict[str, dict[str, float]] = {
-    "crosscheck": {"crosscheck-none": 0.1, "crosscheck-no-observer": 1.0, "crosscheck-pd": 0.1,
-                   "crosscheck-proposed": 1.0},
-    "paper": {"paper": 1.0, "paper-none": 0.1, "paper-pd": 0.1, "paper-adaptive": 1.0, "haul-in": 1.0,
-              "ringdown": 0.01},
-    "faults": {f"paper-{fault}{law}": 1.0 for fault in ("dead", "partial", "stuck") for law in ("", "-adaptive")},
-    "current": {"work-class-1000m-current": 1.0},
-}  # fmt: skip
-"""Every preset of the string, and the share of its load and of its shape at the start that is taken: slopes of 0.05 at
-full size leave second orders of some 1e-3, of which a tenth is left of the tenth."""
-SHIP: dict[str, Any] = {"kind": "box", "length": 93.0, "breadth": 20.0, "draught": 6.6, "block_coefficient": 0.75,
-                        "sheave_forward": 10.0}  # fmt: skip
-SYSTEM: dict[str, Any] = {"significant_height": 0.5, "peak_period": 8.0, "heading": 2.0, "components": 40}
+PRESETS = {
+    "crosscheck": [f"crosscheck-{law}" for law in ("none", "no-observer", "pd", "proposed")],
+    "paper": ["paper", "paper-none", "paper-pd", "paper-adaptive", "haul-in", "ringdown"],
+    "faults": [f"paper-{fault}{law}" for fault in ("dead", "partial", "stuck") for law in ("", "-adaptive")],
+    "current": ["work-class-1000m-current"],
+}
+"""Every preset of the string."""
+SHARES = {"crosscheck-none": 0.1, "crosscheck-pd": 0.1, "paper-none": 0.1, "paper-pd": 0.1, "ringdown": 0.01}
+"""The share of load and of shape at the start that is taken, if not all: slopes of 0.05 at full size leave second
+orders of some 1e-3, of which a tenth is left of the tenth."""
 SEAWAY: dict[str, Any] = {
     "duration": 60.0, "environment.vessel_ramp": 20.0, "control.law": {"kind": "none"},
-    "environment.sea": {"systems": [SYSTEM], "vessel": SHIP, "plane": 2.0, "heave": True, "orbital_below": 6.6},
+    "environment.sea": waves_on_ship({"significant_height": 0.5}, vessel=BOX | {"sheave_forward": 10.0}, heave=True),
     "environment.water.current": {"depths": [0.0, 1100.0], "speeds": [0.5, 0.06],
                                   "variation": [engine.sine(0.2, 0.3)]},
 }  # fmt: skip
@@ -198,8 +196,8 @@ def _beside(name: str, scenario: Scenario, why: str) -> Checks:
 @CASES.add("rope beside the string, {}", TWO_RUNS, "small motions", tuple(PRESETS), quick=False)
 def _presets(group: str) -> Checks:
     """One family of presets."""
-    for name, share in PRESETS[group].items():
-        scenario = load(name)
+    for name in PRESETS[group]:
+        scenario, share = load(name), SHARES.get(name, 1.0)
         why = "stretch of 1e-4, second orders of the slope" + (f" at {share:g} of the load" if share < 1.0 else "")
         yield from _beside(name, scenario.replace(_smaller(scenario, share)), why)
 

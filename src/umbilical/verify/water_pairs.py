@@ -172,7 +172,7 @@ def _water_that_does_nothing() -> Checks:
 
 
 SHEAVE = {"sheave_forward": 10.0, "sheave_up": 8.0}
-SHIP = {"kind": "box", "length": 93.0, "breadth": 20.0, "draught": 6.6, "block_coefficient": 0.75, **SHEAVE}
+BOX = {"kind": "box", "length": 93.0, "breadth": 20.0, "draught": 6.6, "block_coefficient": 0.75}
 SYSTEM = {"significant_height": 1.0, "peak_period": 8.0, "heading": 2.0, "components": 40}
 TMS = BODY | {"displaced_mass": 5400.0}
 LINEAR: dict[str, Any] = {
@@ -186,9 +186,9 @@ ELASTIC: dict[str, Any] = {"cable__axial_stiffness": 2.6e7}
 LIKE = "nothing has changed but words"
 
 
-def _sea(system: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
+def waves_on_ship(system: dict[str, Any] | None = None, **changes: Any) -> dict[str, Any]:
     """A sea with changes of its one system, and of itself."""
-    base = {"systems": [SYSTEM | (system or {})], "vessel": SHIP, "plane": 2.0, "orbital_below": 6.6}
+    base = {"systems": [SYSTEM | (system or {})], "vessel": BOX | SHEAVE, "plane": 2.0, "orbital_below": 6.6}
     return base | changes
 
 
@@ -213,9 +213,8 @@ def _displaced(state: dict[str, Any] | None, **changes: Any) -> np.ndarray:
 def _moved_by_waves() -> Checks:
     """What the orbital motion of a small sea makes of a string, and of a stiff rope."""
     low, stiff = {"significant_height": 1e-3}, {"cable__axial_stiffness": 1e9, "model": "rope", "rope__elements": 6}
-    one, other = (
-        _displaced(_sea(low), **model) - _displaced(_sea(low, orbital_below=None), **model) for model in ({}, stiff)
-    )
+    waves, none = waves_on_ship(low), waves_on_ship(low, orbital_below=None)
+    one, other = (_displaced(waves, **model) - _displaced(none, **model) for model in ({}, stiff))
     gap = float(abs(one - other).max() / abs(one).max())
     yield small("y that the waves in the water add, share of its largest", gap, 1e-3, "the rope's stretch and heave")
 
@@ -223,7 +222,7 @@ def _moved_by_waves() -> Checks:
 @SEA_CASES.add("sea, waves of later", TWO_RUNS, "no instant is before others")
 def _later() -> Checks:
     """The waves of a seed, and the same waves as they are 20 s later, given as numbers: in y and in the tension."""
-    heaving = _sea({"significant_height": 2.5}, seed=5, orbital_below=None, heave=True)
+    heaving = waves_on_ship({"significant_height": 2.5}, seed=5, orbital_below=None, heave=True)
     here, delay = _in_waves(heaving, duration=170.0, **CALMED), 20.0
     waves = sheave(here.environment)
     first, second = engine.finished(here), engine.finished(here.replace({
@@ -247,9 +246,9 @@ def _ahead(terms: Any, time: float) -> Iterator[dict[str, Any]]:
 def _twice_as_high() -> Checks:
     """Twice the height doubles y of a string without drag, and the tension that heave adds."""
     still, low, high = ({"significant_height": height} for height in (0.0, 1.0, 2.0))
-    once, twice = (_displaced(_sea(height), **LINEAR) for height in (low, high))
+    once, twice = (_displaced(waves_on_ship(height), **LINEAR) for height in (low, high))
     yield same_history("y, m", twice, 2.0 * once, *ROUND_OFF)
-    seas = (_sea(height, heave=True) for height in (still, low, high))
+    seas = (waves_on_ship(height, heave=True) for height in (still, low, high))
     zero, one, two = (_values("top_tension", state, **ELASTIC, **LINEAR) for state in seas)
     yield same_history("tension at the sheave, N", two - zero, 2.0 * (one - zero), *ROUND_OFF)
 
@@ -259,7 +258,7 @@ def _twice_as_many() -> Checks:
     """Twice the components change no statistics."""
     rows = []
     for count in (200, 400):
-        state = _sea({"significant_height": 2.5, "components": count}, heave=True)
+        state = waves_on_ship({"significant_height": 2.5, "components": count}, heave=True)
         run = engine.finished(_in_waves(
             state, grid__elements=4, grid__step=0.02, control__period=0.02, duration=10800.0, **CALMED))  # fmt: skip
         late = run["time"].values > 200.0
@@ -276,10 +275,10 @@ def _no_response() -> Checks:
         "frequency": [0.1, 0.2, 0.3, 6.0] * 7, "heave": [1.0, 1.0, 0.0, 0.0] * 7, "heave_phase": [0.0] * 28,
     }  # fmt: skip
     pushed = {"environment__payload_force": [sine(500.0, 0.7)]}
-    still = _sea(vessel=table, orbital_below=None, heave=True)
+    still = waves_on_ship(vessel=table, orbital_below=None, heave=True)
     found, exact = _displaced(still, **ELASTIC, **pushed), _displaced(None, **pushed)
     yield same_history("y, m", found, exact, 1e-12, "the same arithmetic")
-    stirred = _displaced(_sea(vessel=table), **pushed)
+    stirred = _displaced(waves_on_ship(vessel=table), **pushed)
     share = float(abs(stirred - exact).max() / abs(exact).max())
     yield at_least("what waves in the water add, share of y", share, 1e-3, "must be at least 1e-3")
 
@@ -289,7 +288,7 @@ def _full_turn() -> Checks:
     """Headings a full turn apart."""
     spread = {"spreading": 4.0, "directions": 3, "components": 20}
     for name, more in {"long-crested": {}, "spread": spread}.items():
-        here, there = (_displaced(_sea({"heading": angle} | more)) for angle in (2.0, 2.0 - 2.0 * np.pi))
+        here, there = (_displaced(waves_on_ship({"heading": angle} | more)) for angle in (2.0, 2.0 - 2.0 * np.pi))
         yield same_history(f"y, {name}, m", there, here, *ROUND_OFF)
 
 
@@ -297,5 +296,5 @@ def _full_turn() -> Checks:
 def _other_conventions() -> Checks:
     """One vessel by tables of two conventions: lag and lead, headings towards and from, axes up and down."""
     ship, conventions = BoxVessel(93.0, 20.0, 6.6, 0.75), [*reference.CONVENTIONS.values()][:2]
-    lag, lead = (_displaced(_sea(vessel=reference.rao_rows(ship, told) | SHEAVE)) for told in conventions)
+    lag, lead = (_displaced(waves_on_ship(vessel=reference.rao_rows(ship, told) | SHEAVE)) for told in conventions)
     yield same_history("y by lead for y by lag, m", lead, lag, 1e-7, "round-off in the tables' ninth digit")

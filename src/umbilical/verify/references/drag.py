@@ -14,6 +14,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.linalg import solve_banded
 
 Array = np.ndarray
 _PIECES = 2000
@@ -33,27 +34,20 @@ class Shaken(NamedTuple):
 
     Attributes:
         length: l, m.
-        line_inertia, line_weight, line_damping, line_drag: M, kg/m, w, N/m, c, N s/m2, ``1/2 rho_w C_dn d``, N s2/m3.
-        inertia, weight, damping, drag: of the body: m + A_h, kg, W, N, D_l, N s/m, and D_q, N s2/m2.
-        top, bottom: the current at x = 0 and x = l, linear between, m/s.
+        line: of a metre of it, inertia M, kg/m, weight w, N/m, damping c, N s/m2, drag ``1/2 rho_w C_dn d``, N s2/m3.
+        body: m + A_h, kg, W, N, D_l, N s/m, and D_q, N s2/m2.
+        current: at x = 0 and x = l, linear between, m/s.
     """
 
     length: float
-    line_inertia: float
-    line_weight: float
-    line_damping: float
-    line_drag: float
-    inertia: float
-    weight: float
-    damping: float
-    drag: float
-    top: float
-    bottom: float
+    line: tuple[float, float, float, float]
+    body: tuple[float, float, float, float]
+    current: tuple[float, float]
 
     def response(self, force: float, frequency: float) -> complex:
         """Displacement of the body per newton, m/N, under ``Re force e^(i frequency t)``."""
         x = np.linspace(0.0, self.length, _PIECES + 1)
-        current = self.top + (self.bottom - self.top) * x / self.length
+        current = np.interp(x, [0.0, self.length], self.current)
         velocity = np.zeros(x.size)
         found = last = np.zeros(x.size, dtype=complex)
         for _ in range(_MOST):
@@ -66,12 +60,12 @@ class Shaken(NamedTuple):
 
     def _shape(self, force: float, frequency: float, slopes: Array) -> Array:
         """``(T Y')' = (-M w^2 + i w c) Y`` with ``T Y' + (-m w^2 + i w c_tip) Y = F`` at the body, c by ``slopes``."""
-        from scipy.linalg import solve_banded
-
         h, w = self.length / _PIECES, frequency
-        pull = self.weight + self.line_weight * h * (np.arange(_PIECES, 0, -1) - 0.5)
-        along = -self.line_inertia * w * w + 1j * w * (self.line_damping + self.line_drag * slopes)
-        body = -self.inertia * w * w + 1j * w * (self.damping + self.drag * slopes[-1])
+        line_inertia, line_weight, line_damping, line_drag = self.line
+        inertia, weight, damping, drag = self.body
+        pull = weight + line_weight * h * (np.arange(_PIECES, 0, -1) - 0.5)
+        along = -line_inertia * w * w + 1j * w * (line_damping + line_drag * slopes)
+        body = -inertia * w * w + 1j * w * (damping + drag * slopes[-1])
         bands = np.zeros((3, _PIECES + 1), dtype=complex)
         bands[0, 2:], bands[2, :-1] = -pull[1:] / h, -pull / h
         bands[1, 0] = 1.0

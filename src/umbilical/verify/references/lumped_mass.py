@@ -29,30 +29,8 @@ STEP = 0.01
 LIMIT = 300.0
 """Seconds after which it is taken to be stuck."""
 
-_INPUT = """Written by Umbilical
----------------------- LINE TYPES ----------------------
-TypeName  Diam  Mass/m  EA   BA/-zeta  EI  Cd  Ca  CdAx  CaAx
-(name)    (m)   (kg/m)  (N)  (N-s/-)   (-) (-) (-) (-)   (-)
-cable     {diameter:.17g}  {density:.17g} {stiffness:.17g} -0.1 0 0 0 0 0
----------------------- POINTS ----------------------
-ID   Type     X  Y  Z        Mass     Volume  CdA  CA
-(#)  (-)      (m) (m) (m)    (kg)     (m3)    (m2) (-)
-1    Coupled  0  0  0        0        0       0    0
-2    Free     0  0  {depth:.17g} {mass:.17g} {volume:.17g} 0 0
----------------------- LINES ----------------------
-ID   LineType  AttachA  AttachB  UnstrLen  NumSegs  LineOutputs
-(#)  (name)    (#)      (#)      (m)       (-)      (-)
-1    cable     2        1        {unstretched:.17g} {segments} -
----------------------- SOLVER OPTIONS ----------------------
-0     writeLog
-RK4   tScheme
-0.1   cfl
-{gravity:.17g} g
-{water:.17g} WtrDnsty
-{bottom:.17g} WtrDpth
-0     TmaxIC
----------------------- need this line ----------------------
-"""
+_INPUT = Path(__file__).with_name("moordyn.txt")
+"""MoorDyn's input file, with fields for numbers."""
 
 _SCRIPT = """
 import json, sys, time, moordyn
@@ -137,7 +115,7 @@ def _input(string: HangingString, segments: int) -> str:
     unstretched = length - stretch
     displaced = (rho - string.line_weight / g) * length / unstretched
     water = WATER if displaced else 0.0
-    return _INPUT.format(
+    return _INPUT.read_text(encoding="utf-8").format(
         density=rho * length / unstretched, stiffness=STIFFNESS, depth=-length, mass=m, unstretched=unstretched,
         segments=segments, gravity=g, bottom=4.0 * length, water=water,
         volume=(m - string.weight / g) / WATER, diameter=np.sqrt(4.0 / np.pi * displaced / WATER) or 0.01,

@@ -35,7 +35,7 @@ HEAVING, SURGING = 1.1, 1.7
 SEA_WATER = 1025.0
 
 
-def from_rest(size: float, frequency: float, t: Any) -> History:
+def _from_rest(size: float, frequency: float, t: Any) -> History:
     """``size (1 - cos w t)``."""
     w = frequency
     return size * (1.0 - np.cos(w * t)), size * w * np.sin(w * t), size * w * w * np.cos(w * t)
@@ -147,18 +147,18 @@ class StringProblem(NamedTuple):
         """Length, speed, acceleration."""
         if self.steady:
             return self.start_length + self.speed * t, self.speed + 0.0 * t, 0.0 * t
-        out, *rates = from_rest(self.swing, self.frequency, t)
+        out, *rates = _from_rest(self.swing, self.frequency, t)
         return self.start_length + out, *rates
 
     def at(self, sigma: Array, t: Array) -> Jet:
         """y; ``q = q0 (1 - cos(1.3 t))`` is also the vessel's motion, and ``p = p(0) - (1 - cos(2 t))/3``."""
-        value, *rates = from_rest(-1.0 / 3.0, 2.0, t)
-        histories = (self.start + value, *rates), from_rest(self.vessel, 1.3, t)
+        value, *rates = _from_rest(-1.0 / 3.0, 2.0, t)
+        histories = (self.start + value, *rates), _from_rest(self.vessel, 1.3, t)
         return jet(histories, _waves(WAVENUMBER, sigma), sigma, self.winch(t))
 
     def sinking(self, t: Array) -> History:
         """zeta, v_z and a_z: the heave, and how ROV and cable sink, m/s and m/s2."""
-        (_, speed, acceleration), (heave, up, rate) = self.winch(t), from_rest(self.sea.heave, HEAVING, t)
+        (_, speed, acceleration), (heave, up, rate) = self.winch(t), _from_rest(self.sea.heave, HEAVING, t)
         return heave, speed - up, acceleration - rate
 
     def tension(self, above: Array, t: Array) -> tuple[Array, Array]:
@@ -241,7 +241,7 @@ class RopeProblem(NamedTuple):
 
     def winch(self, t: float) -> History:
         """Length, speed, acceleration."""
-        out, speed, acceleration = from_rest(0.2 * self.swing, 1.0, t)
+        out, speed, acceleration = _from_rest(0.2 * self.swing, 1.0, t)
         return self.start_length + self.swing * t + out, self.swing + speed, acceleration
 
     def at(self, sigma: Array, t: float) -> Jet:
