@@ -10,18 +10,15 @@ import pytest
 from tests.support.scenarios import open_loop, run
 from umbilical.verify.invariance import hung, pulsed
 
-LAW = {"control__law": {"kind": "boundary", "damping_gain": 1e4, "slope_gain": 0.01}}
+LAW: dict[str, Any] = {"control__law": {"kind": "boundary", "damping_gain": 1e4, "slope_gain": 0.01}}
 
 
-@pytest.mark.parametrize("control", [{}, LAW], ids=["open loop", "closed loop"])
-def test_a_later_load_gives_the_same_response_later(control: dict[str, Any]) -> None:
-    early, late = pulsed(1.0, **control), pulsed(3.0, **control)
+def test_a_later_load_gives_the_same_response_later() -> None:
+    early, late = pulsed(1.0, **LAW), pulsed(3.0, **LAW)
     assert np.abs(early[: late.size] - late).max() < 1e-11 * np.abs(early).max()
 
 
-@pytest.mark.parametrize(
-    ("length", "time", "force"), [(4.0, 2.0, 1.0), (1.0, 1.0, 8.0), (0.5, 0.25, 2.0), (3.0, 1.7, 0.3)]
-)
+@pytest.mark.parametrize(("length", "time", "force"), [(4.0, 2.0, 1.0), (1.0, 1.0, 8.0), (0.5, 0.25, 2.0)])
 def test_units_do_not_matter(length: float, time: float, force: float) -> None:
     one, other = hung(1.0, 1.0, 1.0), hung(length, time, force)
     for name, unit in (("displacement", length), ("velocity", length / time), ("energy", force * length)):

@@ -156,9 +156,8 @@ def at_least(quantity: str, value: float, least: float, why: str) -> Check:
 def order_reached(curve: Curve, why: str = "stated") -> Check:
     """The order of the finest pair of grids; the error is what it lacks to the stated one."""
     found = float(orders(curve.errors, curve.sizes)[-1])
-    return Check(
-        f"order of {curve.name} in {curve.size}", found, curve.order, curve.order - found, ORDER_SLACK, why, curve
-    )
+    what = f"order of {curve.name} in {curve.size}"
+    return Check(what, found, curve.order, curve.order - found, ORDER_SLACK, why, curve)
 
 
 def orders_reached(
@@ -171,14 +170,8 @@ def orders_reached(
 
 def worst_ratio(checks: Sequence[Check]) -> float:
     """Largest error over its tolerance; infinite for NaN, and for any error where none is tolerated."""
-    return max(map(_ratio, checks), default=0.0)
-
-
-def _ratio(check: Check) -> float:
-    if check.holds and not check.tolerance:
-        return 0.0
-    ratio = check.error / check.tolerance if check.tolerance else np.inf
-    return float(ratio) if np.isfinite(ratio) else np.inf
+    ratios = (check.error / check.tolerance if check.tolerance else 0.0 if check.holds else np.inf for check in checks)
+    return max((float(ratio) if np.isfinite(ratio) else np.inf for ratio in ratios), default=0.0)
 
 
 def _shown(quantity: str, found: Any, exact: Any, errors: Any, worst: int, *limit: Any) -> Check:

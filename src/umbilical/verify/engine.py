@@ -6,9 +6,11 @@ in one place and see the case fail.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
+from scipy.sparse import csc_array
+from scipy.sparse.linalg import eigs
 
 from umbilical.engine.linear import step_matrix
 from umbilical.engine.simulate import simulate
@@ -77,13 +79,8 @@ def modes(scenario: Scenario, count: int) -> tuple[np.ndarray, np.ndarray]:
         Poles, shape (count,), and velocities along the cable over that of the ROV, the part in phase with it, shape
         (count, 4 n + 1).
     """
-    from scipy.sparse import csc_array
-    from scipy.sparse.linalg import eigs
-
     step, elements = step_matrix(scenario), scenario.grid.elements
-    start = np.ones(len(step))
-    pairs: Any = eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=start)
-    nearest, vectors = pairs
+    nearest, vectors = cast(Any, eigs(csc_array(step), 2 * count + 8, sigma=1.0, v0=np.ones(len(step))))
     found = np.log(nearest) / chosen_step(scenario)
     upper = np.flatnonzero(found.imag > 1e-9)
     order = upper[np.argsort(found.imag[upper])][:count]

@@ -49,14 +49,8 @@ def matrices(degree: int) -> Matrices:
     def product(left: Array, weight: Array, right: Array) -> Array:
         return left.T @ (0.5 * (weights * weight)[:, None] * right)
 
-    one = np.ones_like(points)
-    return Matrices(
-        product(shapes, one, shapes),
-        product(shapes, above, slopes),
-        product(slopes, above**2, slopes),
-        product(slopes, one, slopes),
-        product(slopes, above, slopes),
-    )
+    stretched = (product(slopes, weight, slopes) for weight in (above**2, np.ones_like(points), above))
+    return Matrices(product(shapes, np.ones_like(points), shapes), product(shapes, above, slopes), *stretched)
 
 
 def _cable_rates(m: Matrices, t: float, q: Array, momentum: Array, force: float) -> tuple[Array, Array]:

@@ -17,11 +17,6 @@ from numpy.polynomial import chebyshev as cheb
 Curve = Callable[[np.ndarray], np.ndarray]
 
 
-def nothing(t: np.ndarray) -> np.ndarray:
-    """0 at all times."""
-    return np.zeros_like(t)
-
-
 class MovingEnd:
     """Response of cable and ROV to a start, a force on the ROV and a motion of the vessel.
 
@@ -41,17 +36,23 @@ class MovingEnd:
 
     def __init__(
         self, tension: float, density: float, mass: float, damping: float, length: Curve, start: Curve, until: float,
-        impulse: Curve = nothing, vessel: Curve = nothing, pieces: int = 4, degree: int = 40,
+        impulse: Curve = np.zeros_like, vessel: Curve = np.zeros_like, pieces: int = 4, degree: int = 40,
     ) -> None:  # fmt: skip
-        self._impulse, self._vessel, self._mass = impulse, vessel, mass
+        self._length, self._start, self._vessel, self._pieces = length, start, vessel, pieces
         self._speed, impedance = float(np.sqrt(tension / density)), float(np.sqrt(tension * density))
-        self._length, self._start, self._pieces = length, start, pieces
-        self._reach = float(length(np.zeros(1))[0]) / self._speed
+        origin, reach = (float(curve(np.zeros(1))[0]) for curve in (start, length))
+        self._reach = reach / self._speed
         self._tip = np.zeros((int(np.ceil(until * pieces)), degree + 1))
-        decay, drive = (impedance + damping) / mass, 2.0 * impedance / mass
-        origin, value = float(start(np.zeros(1))[0]), float(start(np.zeros(1))[0])
-        for k in range(len(self._tip)):
-            self._tip[k] = self._solve(k / pieces, (k + 1) / pieces, degree, decay, drive, origin, value)
+        decay, drive, value = (impedance + damping) / mass, 2.0 * impedance / mass, origin
+        nodes = cheb.chebpts2(degree + 1)
+        values = cheb.chebvander(nodes, degree)
+        matrix = cheb.chebvander(nodes, degree - 1) @ cheb.chebder(np.eye(degree + 1)) * 2.0 * pieces + decay * values
+        matrix[0] = values[0]
+        for k in range(len(self._tip)):  # Y0' = drive (H - H(0)) + I/m - decay (Y0 - Y0(0))
+            instants = (k + 0.5 * (nodes + 1.0)) / pieces
+            right = drive * (self._incoming(instants) - 0.5 * origin) + decay * origin + impulse(instants) / mass
+            right[0] = value
+            self._tip[k] = np.linalg.solve(matrix, right)
             value = float(self._tip[k].sum())
 
     def __call__(self, distance: np.ndarray, t: float) -> np.ndarray:
@@ -64,19 +65,6 @@ class MovingEnd:
         place = np.minimum((t * self._pieces).astype(int), len(self._tip) - 1)
         inside = 2.0 * (t * self._pieces - place) - 1.0
         return (cheb.chebvander(inside, self._tip.shape[1] - 1) * self._tip[place]).sum(axis=-1)
-
-    def _solve(
-        self, begin: float, end: float, degree: int, decay: float, drive: float, origin: float, value: float
-    ) -> np.ndarray:
-        """Y0 from ``begin`` to ``end`` as a Chebyshev series: Y0' = drive (H - H(0)) - decay (Y0 - Y0(0))."""
-        nodes = cheb.chebpts2(degree + 1)
-        instants = begin + 0.5 * (end - begin) * (nodes + 1.0)
-        values = cheb.chebvander(nodes, degree)
-        slopes = cheb.chebvander(nodes, degree - 1) @ cheb.chebder(np.eye(degree + 1)) * 2.0 / (end - begin)
-        matrix, right = slopes + decay * values, drive * (self._incoming(instants) - 0.5 * origin) + decay * origin
-        right += self._impulse(instants) / self._mass
-        matrix[0], right[0] = values[0], value
-        return np.linalg.solve(matrix, right)
 
     def _incoming(self, u: np.ndarray) -> np.ndarray:
         """H at arguments up to the furthest that has left the vessel."""
@@ -119,8 +107,7 @@ class HeldEnd:
 
     def __init__(self, wave_speed: float, length: float, speed: float, start: Curve) -> None:
         self._c, self._l0, self._v, self._start = wave_speed, length, speed, start
-        b = speed / wave_speed
-        self._stretch = (1.0 + b) / (1.0 - b)
+        self._stretch = (wave_speed + speed) / (wave_speed - speed)
 
     def __call__(self, distance: np.ndarray, t: float) -> np.ndarray:
         """Displacement, m, at distances from the held end, m."""

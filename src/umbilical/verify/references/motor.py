@@ -40,10 +40,10 @@ def driven_motor(motor: Motor, voltage: float, start: tuple[float, float], t: np
 def linear_step(motor: Motor, speed: float, change: float, t: np.ndarray) -> np.ndarray:
     """Change of the speed, rad/s, after a small change of the voltage, of eq. (15) linearised at a speed."""
     brake = motor["viscous_friction"] + 2.0 * motor["load_coefficient"] * abs(speed)
-    matrix = np.array([
-        [-brake / motor["inertia"], motor["torque_constant"] / motor["inertia"]],
-        [-motor["back_emf_constant"] / motor["inductance"], -motor["resistance"] / motor["inductance"]],
-    ])  # fmt: skip
+    stored = np.array([[motor["inertia"]], [motor["inductance"]]])
+    matrix = (
+        np.array([[-brake, motor["torque_constant"]], [-motor["back_emf_constant"], -motor["resistance"]]]) / stored
+    )
     final = np.linalg.solve(matrix, [0.0, -change / motor["inductance"]])
     poles, modes = np.linalg.eig(matrix)
     remaining = modes @ (np.exp(np.multiply.outer(poles, t)) * np.linalg.solve(modes, final)[:, None])

@@ -12,6 +12,7 @@ import numpy as np
 
 from umbilical.verify.references import integrated
 
+Array = np.ndarray
 N = 100  # intervals along the cable
 RHO, MASS, DAMPING, TIP_DAMPING, GRAVITY = 2.0, 500.0, 0.001, 0.001, 10.0
 J, B, K_T, K_Q, R, L, K_B = 0.5, 0.015, 4.0, 1.0, 0.08, 0.002, 0.5
@@ -35,13 +36,13 @@ def payload_force(t: float) -> float:
     return 100 + 50 * np.sin(0.7 * t) + 30 * np.sin(0.5 * t) + 20 * np.sin(0.9 * t)
 
 
-def motor_disturbances(t: float) -> tuple[np.ndarray, np.ndarray]:
+def motor_disturbances(t: float) -> tuple[Array, Array]:
     """Torque, N m, and voltage, V, of both motors."""
     both = np.array([np.sin(20 * t), 1 / (1 + ((t - 25) / 8) ** 4)])
     return both, 0.2 * both
 
 
-def commanded_thrust(x1: float, z1: float, tension: float, s: np.ndarray) -> tuple[float, np.ndarray]:
+def commanded_thrust(x1: float, z1: float, tension: float, s: Array) -> tuple[float, Array]:
     """Commanded thrust, and the rates of pi1, pi2, chi1, chi2, phi: (17), (19), (21), (22)."""
     pi1, pi2, chi1, chi2, phi = s
     x2, z2 = pi2 / EPS, chi2 / EPS
@@ -52,7 +53,7 @@ def commanded_thrust(x1: float, z1: float, tension: float, s: np.ndarray) -> tup
     return thrust, np.array([*(rate / EPS for rate in observers), K_S * (VS * error + known - thrust - estimate)])
 
 
-def motor_loops(thrust: float, w: np.ndarray, i: np.ndarray, f: np.ndarray, ups: np.ndarray) -> tuple[Any, ...]:
+def motor_loops(thrust: float, w: Array, i: Array, f: Array, ups: Array) -> tuple[Any, ...]:
     """Voltages, and the rates of the command filters and of the motor observers: (52)-(64)."""
     demand = thrust / THRUST.sum()
     root = demand / (demand**2 + SOFT**2) ** 0.25
@@ -71,15 +72,13 @@ def motor_loops(thrust: float, w: np.ndarray, i: np.ndarray, f: np.ndarray, ups:
     return drive / F23, f_rate, ups_rate
 
 
-def rates_of_motors(
-    w: np.ndarray, i: np.ndarray, voltage: np.ndarray, disturbances: tuple[np.ndarray, np.ndarray]
-) -> tuple[np.ndarray, np.ndarray]:
+def rates_of_motors(w: Array, i: Array, voltage: Array, disturbances: tuple[Array, Array]) -> tuple[Array, Array]:
     """Rates of speeds and currents under torques, N m, and voltages, V, from outside: (15)."""
     torque, extra = disturbances
     return (K_T * i - B * w - K_Q * abs(w) * w + torque) / J, (-R * i - K_B * w + voltage + extra) / L
 
 
-def controlled(tip: float, slope: float, tension: float, tail: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]]:
+def controlled(tip: float, slope: float, tension: float, tail: Array) -> tuple[Array, list[Array]]:
     """Voltages, and the rates of the outer observers, the filters and the motors' observers.
 
     Args:
@@ -91,7 +90,7 @@ def controlled(tip: float, slope: float, tension: float, tail: np.ndarray) -> tu
     return voltage, [observer_rates, filter_rates.ravel(), ups_rate]
 
 
-def loop_rates(t: float, state: np.ndarray) -> np.ndarray:
+def loop_rates(t: float, state: Array) -> Array:
     """Time derivative of y and Dy/Dt at nodes 1 to N, motors, observers, filters."""
     length, v, a = winch(t)
     h = length / N
@@ -116,7 +115,7 @@ def loop_rates(t: float, state: np.ndarray) -> np.ndarray:
     return np.concatenate([y_rate[1:], w_rate[1:], *motors, *control_rates])
 
 
-def displacement(times: np.ndarray) -> np.ndarray:
+def displacement(times: Array) -> Array:
     """y at increasing instants from 0 and N + 1 nodes from vessel to ROV, m, from a straight cable at rest.
 
     Raises:

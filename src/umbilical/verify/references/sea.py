@@ -8,6 +8,7 @@ import mpmath
 import numpy as np
 
 GRAVITY = 9.81
+Array = np.ndarray
 
 
 def _jonswap(gamma: float, order: int) -> Any:
@@ -55,9 +56,7 @@ WORK_CLASS = SpringMasses(2.6e7, 5.412, 17000.0, 3000.0, 600)
 """The work-class umbilical with its body, added mass included."""
 
 
-def heave_of_masses(
-    cable: SpringMasses, damping: float, omega: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def heave_of_masses(cable: SpringMasses, damping: float, omega: Array) -> tuple[Array, Array, Array]:
     """Heave of the body, tension at the body and at the sheave per metre of heave, by a march from the body upwards."""
     step = cable.length / cable.masses
     spring, each = cable.stiffness / step, cable.line_density * step
@@ -71,9 +70,7 @@ def heave_of_masses(
     return 1.0 / place, end / place, (pull + omega**2 * each / 2.0 * place) / place
 
 
-def heave_with_drag(
-    cable: SpringMasses, drag: float, omega: np.ndarray, variance: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def heave_with_drag(cable: SpringMasses, drag: float, omega: Array, variance: Array) -> tuple[Array, Array, Array]:
     """The same with quadratic drag, linearised for a heave of that ``variance`` at each frequency, m2, by iteration."""
     velocity = 0.5
     for _ in range(200):
@@ -85,7 +82,7 @@ def heave_with_drag(
     return found
 
 
-def ship_heave(omega: np.ndarray, heading: float, forward: float) -> np.ndarray:
+def ship_heave(omega: Array, heading: float, forward: float) -> Array:
     """Size of the sheave's heave of the work-class vessel: heave and pitch of the closed form are in quadrature."""
     length, wide, draught = 93.0, 15.0, 6.6
     k = omega * omega / GRAVITY
@@ -150,13 +147,8 @@ def work_class_statistics(height: float, depth: float, heading: float) -> dict[s
 
 
 def masses_in_waves(
-    cable: SpringMasses,
-    drag: float,
-    omega: np.ndarray,
-    waves: np.ndarray,
-    window: tuple[float, float],
-    masses: int = 40,
-) -> np.ndarray:
+    cable: SpringMasses, drag: float, omega: Array, waves: Array, window: tuple[float, float], masses: int = 40
+) -> Array:
     """Rms of the tension at top and body, N, and of the body's heave, m, between two instants; leapfrog.
 
     Quadratic drag. The sheave heaves by the real part of ``sum(waves exp(i omega t))``, m, faded in over a minute.
