@@ -238,15 +238,8 @@ def _periods(scenario: Scenario, period: float, owner: str) -> int:
     """Count the control periods that a command is held for."""
     own = scenario.control.period
     if not np.isfinite(period) or not is_multiple(period, own):
-        raise ScenarioError(
-            [
-                Problem(
-                    f"{owner}.period",
-                    f"{apart(period, own)[0]} s",
-                    f"a multiple of control.period = {own:g} s",
-                    "the motor loops and the sensors run at control.period",
-                    "set control.period to this period or to a fraction of it",
-                )
-            ]
-        )
+        reason = "the motor loops and the sensors run at control.period"
+        fix, bound = "set control.period to this period or to a fraction of it", f"control.period = {own:g} s"
+        found = f"{apart(period, own)[0]} s"
+        raise ScenarioError([Problem(f"{owner}.period", found, f"a multiple of {bound}", reason, fix)])
     return nearest_count(period, own)

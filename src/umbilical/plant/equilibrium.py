@@ -61,13 +61,13 @@ def equilibrium(scenario: Scenario, time: float = 0.0, tip: float | None = None)
     hung = hanging_of(scenario.cable, scenario.payload, environment)
     pull = tension(length * (1.0 - sigma), net_gravity(environment.gravity), hung)
     water = speeds_at(environment, length * sigma) * current_at(environment, np.array(time))[0]
-    below = length * _from_below(load_at_rest(scenario, time, sigma, water), sigma)
+    below = length * from_below(load_at_rest(scenario, time, sigma, water), sigma)
     force = float(evaluate(environment.payload_force, time)) + body_force(make_body_drag(scenario), float(water[-1]))
     vessel = float(vessel_at(environment, time)[0])
     reached = vessel + length * float(np.trapezoid((force + below) / pull, sigma))
     thrust = 0.0 if tip is None else (tip - reached) / (length * float(np.trapezoid(1.0 / pull, sigma)))
     slope = (force + thrust + below) / pull
-    displacement = vessel + length * (_from_below(slope, sigma)[0] - _from_below(slope, sigma))
+    displacement = vessel + length * (from_below(slope, sigma)[0] - from_below(slope, sigma))
     return Equilibrium(sigma, slope, displacement, water, thrust, length)
 
 
@@ -79,7 +79,8 @@ def load_at_rest(scenario: Scenario, time: float, sigma: np.ndarray, water: np.n
     return found
 
 
-def _from_below(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-    """Integral over sigma from each position to 1, by trapezoids, same shape."""
-    pieces = 0.5 * (values[1:] + values[:-1]) * np.diff(sigma)
-    return np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+def from_below(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    """Integral over sigma, the last axis, from each position to 1, by trapezoids, same shape."""
+    pieces = 0.5 * (values[..., 1:] + values[..., :-1]) * np.diff(sigma)
+    sums = np.cumsum(pieces[..., ::-1], axis=-1)[..., ::-1]
+    return np.concatenate([sums, np.zeros((*values.shape[:-1], 1))], axis=-1)

@@ -53,13 +53,8 @@ def waves_of(sea: SeaState) -> list[tuple[float, Components]]:
         if system.significant_height > 0.0:
             headings, spectrum = directions_of(system), spectrum_of(system)
             for k, heading in enumerate(headings.tolist()):
-                waves = discretise(
-                    spectrum,
-                    system.components,
-                    seed=sea.seed,
-                    system=100 * number + k,
-                    rayleigh=sea.amplitudes == "random",
-                )
+                drawn = {"seed": sea.seed, "system": 100 * number + k, "rayleigh": sea.amplitudes == "random"}
+                waves = discretise(spectrum, system.components, **drawn)
                 found.append((heading, waves._replace(amplitude=waves.amplitude / np.sqrt(headings.size))))
     return found
 

@@ -7,7 +7,6 @@ gravity and its relative jerk are made here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -90,18 +89,14 @@ def top_on_both_sides(
 ) -> Top:
     """All limits from the left, then all from the right, shape (2 n,) for n instants."""
     sides = (top_at(law, t, side, environment, stretching) for side in ("left", "right"))
-    return _joined(np.concatenate(pair) for pair in zip(*sides, strict=True))
+    return Top._make(np.concatenate(pair) for pair in zip(*sides, strict=True))
 
 
 def top_within(law: Winch, t: Array) -> Top:
     """Rows of instants between jumps, shape (rows, n): limits at both ends of a row are those from inside it."""
     last = np.arange(t.shape[1]) == t.shape[1] - 1
     pairs = zip(top_at(law, t, "right"), top_at(law, t, "left"), strict=True)
-    return _joined(np.where(last, left, right) for right, left in pairs)
-
-
-def _joined(parts: Iterable[Array]) -> Top:
-    return Top(*parts)
+    return Top._make(np.where(last, left, right) for right, left in pairs)
 
 
 def vessel_at(environment: Environment, t: ArrayLike, side: Side = "right") -> Any:

@@ -12,6 +12,7 @@ from umbilical.plant import signals
 from umbilical.plant.checks.moving import MovingCable, sampled_top
 from umbilical.plant.checks.timeline import shapes, signals_of_the_environment
 from umbilical.plant.current import speeds_at
+from umbilical.plant.equilibrium import from_below
 from umbilical.plant.exogenous import current_at, profile
 from umbilical.plant.stretching import stretching
 from umbilical.plant.top import top_at
@@ -125,13 +126,14 @@ def steady_slope(moving: MovingCable, control: Control) -> Steady:
     found = in_water(cable, payload, environment)
     water = speeds_at(environment, length * sigma - motion.heave[:, None]) * current_at(environment, t)[0][:, None]
     loads = _loads(environment, t, sigma) + found.normal * np.abs(water) * water
-    below = length * _from_below(loads, sigma)
+    below = length * from_below(loads, sigma)
     passing = water[:, -1]
     pushed = (found.body_linear + found.body_quadratic * np.abs(passing)) * passing
-    carried, alone = _sum(length * below / pull, sigma), _sum(length / pull, sigma)
+    carried, alone = from_below(length * below / pull, sigma)[:, 0], from_below(length / pull, sigma)[:, 0]
     left = _left_at_the_payload(environment, control, t, pull[:, -1], carried, alone, pushed)
     slopes = (left[:, None] + below) / pull
-    crossing = float(np.max(length[:, 0] * _sum(np.sqrt(line_inertia(cable, payload, environment) / pull), sigma)))
+    slowness = np.sqrt(line_inertia(cable, payload, environment) / pull)
+    crossing = float(np.max(length[:, 0] * from_below(slowness, sigma)[:, 0]))
     wanted = int(np.ceil(2.0 * crossing / duration * (_INSTANTS - 1))) + 1
     window = min(wanted, _INSTANTS)
     lasting = np.maximum(_least(slopes, window), _least(-slopes, window)).max(axis=0)
@@ -191,17 +193,6 @@ def _creeping(t: np.ndarray, carried: np.ndarray, alone: np.ndarray, pull: np.nd
         left[k] = (before - holds * carried[k]) / (holds * alone[k] + creep / pull[k])
         kept += (left[k] / pull[k] - kept) * (1.0 - 1.0 / washed)
     return left
-
-
-def _from_below(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-    """Integral over sigma from each position to 1, by trapezoids, same shape."""
-    pieces = 0.5 * (values[:, 1:] + values[:, :-1]) * np.diff(sigma)
-    return np.append(np.cumsum(pieces[:, ::-1], axis=1)[:, ::-1], np.zeros((values.shape[0], 1)), axis=1)
-
-
-def _sum(values: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-    """Integral over sigma from 0 to 1."""
-    return _from_below(values, sigma)[:, 0]
 
 
 def _least(values: np.ndarray, window: int) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant.checks.moving import MovingCable, wave_terms
-from umbilical.plant.checks.timeline import MOST_STEPS, numbered
+from umbilical.plant.checks.timeline import MOST_STEPS
 from umbilical.plant.forces.table import decays
 from umbilical.plant.multistep import DECAY_LIMIT, courant_limit
 from umbilical.plant.rope.assemble import rope_step
@@ -117,12 +117,12 @@ def motors(motors: Sequence[Motor], ideal_thruster: bool, control: Control, grid
     if ideal_thruster:
         return
     step = plant_step(control, grid)
-    for key, motor in numbered("motors", motors):
+    for number, motor in enumerate(motors, start=1):
         speed = reachable_speed(motor)
         pole = max(fastest_pole(motor, speed), fastest_pole(motor, 0.0))
         if not pole * step <= _RUNGE_KUTTA:
-            why = f"motor {key[7:]} has a pole at {pole:.6g} 1/s at {speed:.6g} rad/s; the scheme is explicit"
-            fix = f"a smaller grid.step, or check {key}.inductance and {key}.inertia"
+            why = f"motor {number} has a pole at {pole:.6g} 1/s at {speed:.6g} rad/s; the scheme is explicit"
+            fix = f"a smaller grid.step, or check motors.{number}.inductance and motors.{number}.inertia"
             yield Problem("grid.step", amount(step, "s"), f"at most {_RUNGE_KUTTA / pole:.4g} s", why, fix)
 
 
