@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.stats import CensoredData, binom, gumbel_r
 
-from umbilical.analysis.paired import LEVEL, Estimate
+from umbilical.analysis.paired import Estimate
 from umbilical.engine.simulate import simulate
 from umbilical.run import Run, Status
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.engines import in_order
+from umbilical.studies.extremes import Gumbel, fit_gumbel
 
 if TYPE_CHECKING:
     from umbilical.screening.criteria import Criterion
@@ -97,54 +98,46 @@ def confirm(
     Raises:
         ScenarioError: the scenario is refused.
     """
-    chosen = np.arange(seeds)
+    chosen, kept = np.arange(seeds), tuple(criteria)
     changed = [scenario.replace({"environment.sea.seed": seed}) for seed in chosen.tolist()]
-    found = in_order(partial(_look, criteria=tuple(criteria), settled=settled), changed, progress, workers)
-    completed = np.array([shares is not None for shares, _ in found])
-    good = [(shares, passed) for shares, passed in found if shares is not None]
-    if not good:
-        nothing = Reached(Estimate(np.nan, np.nan, np.nan), 0, False)
-        return Confirmation(scenario, tuple(criteria), height, chosen, completed, np.zeros((len(criteria), 0, 0)),
-                            (nothing,) * len(criteria))  # fmt: skip
-    shares = np.stack([part for part, _ in good], axis=1)
-    passed = np.sum([part for _, part in good], axis=0)
-    ran = scenario.duration - settled
-    reached = tuple(_reached(shares[k], int(passed[k]), each, ran) for k, each in enumerate(criteria))
-    return Confirmation(scenario, tuple(criteria), height, chosen, completed, shares, reached)
+    found = in_order(partial(_look, criteria=kept, settled=settled), changed, progress, workers)
+    completed = np.array([each is not None for each in found])
+    if not completed.any():
+        nothing = (Reached(Estimate(np.nan, np.nan, np.nan), 0, False),) * len(kept)
+        return Confirmation(scenario, kept, height, chosen, completed, np.zeros((len(kept), 0, 0)), nothing)
+    good = zip(*(each for each in found if each is not None), strict=True)
+    shares, passed = (np.stack(part, axis=1) for part in good)
+    ran, counts = scenario.duration - settled, passed.sum(axis=1).tolist()
+    reached = tuple(_reached(*each, ran) for each in zip(shares, counts, kept, strict=True))
+    return Confirmation(scenario, kept, height, chosen, completed, shares, reached)
 
 
-def _look(scenario: Scenario, criteria: Sequence[Criterion], settled: float) -> tuple[np.ndarray | None, np.ndarray]:
-    """Largest shares of the blocks of a run, shape (criteria, blocks), and which criteria it passed anywhere."""
+def _look(scenario: Scenario, criteria: Sequence[Criterion], settled: float) -> tuple[np.ndarray, np.ndarray] | None:
+    """Largest shares of the blocks of a run, shape (criteria, blocks), and which criteria it passed anywhere; None if
+    it did not complete."""
     run = simulate(scenario)
     if run.status is not Status.COMPLETED:
-        return None, np.zeros(len(criteria), dtype=bool)
+        return None
     late = run["time"].values >= settled
     blocks = max(_FEWEST, round((scenario.duration - settled) / BLOCK))
-    shares = [_peaks(share_of(run, each)[late], blocks) for each in criteria]
-    return np.array(shares), np.array([_passed(run, each) for each in criteria])
+    found = [_share_of(run, criterion) for criterion in criteria]
+    return np.array([_peaks(share[late], blocks) for share, _ in found]), np.array([passed for _, passed in found])
 
 
-def share_of(run: Run, criterion: Criterion) -> np.ndarray:
-    """Share of what a criterion allows, at each stored sample; against the cable at rest at the start."""
+def _share_of(run: Run, criterion: Criterion) -> tuple[np.ndarray, bool]:
+    """Share of what a criterion allows, at each stored sample, against the cable at rest at the start; and whether it
+    was passed, by every control sample where metrics have it, for a snap falls between stored ones."""
     match criterion.name:
         case "top_tension":
             top = run["top_tension"].values
-            return (top - top[0]) / max(criterion.level - top[0], np.finfo(float).tiny)
+            share = (top - top[0]) / max(criterion.level - top[0], np.finfo(float).tiny)
+            return share, run.metrics["top_tension_peak"] > criterion.level
         case "body_heave":
             height = run["body_position"].values[:, 2]
-            return (height - height[0]) / max(criterion.level, np.finfo(float).tiny)
+            share = (height - height[0]) / max(criterion.level, np.finfo(float).tiny)
+            return share, bool(share.max() > 1.0)
     tension = run["tension"].values
-    return (1.0 - tension / tension[0]).max(axis=1)
-
-
-def _passed(run: Run, criterion: Criterion) -> bool:
-    """By every control sample where metrics have it, for a snap falls between stored ones."""
-    match criterion.name:
-        case "slack":
-            return run.metrics["slack_share"] > 0.0
-        case "top_tension":
-            return run.metrics["top_tension_peak"] > criterion.level
-    return bool(share_of(run, criterion).max() > 1.0)
+    return (1.0 - tension / tension[0]).max(axis=1), run.metrics["slack_share"] > 0.0
 
 
 def _peaks(values: np.ndarray, blocks: int) -> np.ndarray:
@@ -166,19 +159,15 @@ def _reached(shares: np.ndarray, passed: int, criterion: Criterion, ran: float) 
     too_many = bool(binom.sf(passed - 1, runs, in_a_run) < 0.025)
     if np.ptp(squares) == 0.0 or squares.size < _FEWEST:
         return Reached(Estimate(float(shares.max()), 0.0, np.inf), passed, too_many)
-    fit = _fit(squares, limit)
-    dice = np.random.default_rng(0)
-    drawn = np.asarray(gumbel_r.rvs(*fit, size=(_RESAMPLED, squares.size), random_state=dice))
-    again = [_share(_fit(np.minimum(sample, limit), limit), allowed) for sample in drawn]
-    low, high = np.quantile(again, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
-    return Reached(Estimate(_share(fit, allowed), float(low), float(high)), passed, too_many)
+
+    def share(fit: Gumbel) -> float:
+        return float(np.sqrt(max(gumbel_r.ppf(1.0 - allowed, *fit), 0.0)))
+
+    _, used = fit_gumbel(squares, share, again=_RESAMPLED, seed=0, fit=partial(_fit, limit=limit))
+    return Reached(used, passed, too_many)
 
 
-def _share(fit: tuple[float, float], probability: float) -> float:
-    return float(np.sqrt(max(gumbel_r.ppf(1.0 - probability, *fit), 0.0)))
-
-
-def _fit(squares: np.ndarray, limit: float) -> tuple[float, float]:
+def _fit(squares: np.ndarray, limit: float) -> Gumbel:
     """Location and scale by maximum likelihood; where the cable is slack a share is 1 or more."""
     beyond = squares >= limit
     if not beyond.any():

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic
-from typing import IO, Any
+from typing import Any
 from zlib import crc32
 
 from umbilical.errors import FileError, OutputError
@@ -39,13 +39,21 @@ def lines(path: Path) -> Iterator[bytes]:
     Raises:
         FileError: a line is not whole and others that are follow it, which no kill leaves; or it cannot be read.
     """
-    if path.exists():
-        with _opened(path) as file:
-            for number, line in enumerate(file, start=1):
-                if not is_whole_line(line):
-                    _refuse_damage(path, number, file)
-                    return
+    try:
+        file = path.open("rb")
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise FileError(f"{path}: cannot be read ({error.strerror})") from error
+    with file:
+        for number, line in enumerate(file, start=1):
+            if is_whole_line(line):
                 yield line
+            elif any(map(is_whole_line, file)):
+                raise FileError(
+                    f"{path}: line {number} is damaged and lines after it are not; remove that line and go on with "
+                    f"--resume, or {BEGIN_ANEW}"
+                )
 
 
 def entries(path: Path) -> Iterator[Any]:
@@ -59,21 +67,6 @@ def entries(path: Path) -> Iterator[Any]:
             yield json.loads(line[9:-1])
         except (ValueError, RecursionError) as error:
             raise FileError(f"{path}: line {number} is not what Umbilical writes; {BEGIN_ANEW}") from error
-
-
-def _refuse_damage(path: Path, number: int, rest: Iterable[bytes]) -> None:
-    if any(map(is_whole_line, rest)):
-        raise FileError(
-            f"{path}: line {number} is damaged and lines after it are not; remove that line and go on with --resume, "
-            "or begin anew with --force"
-        )
-
-
-def _opened(path: Path) -> IO[bytes]:
-    try:
-        return path.open("rb")
-    except OSError as error:
-        raise FileError(f"{path}: cannot be read ({error.strerror})") from error
 
 
 class Journal:

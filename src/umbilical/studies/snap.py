@@ -21,9 +21,8 @@ from umbilical.result import ResultFaces
 from umbilical.run import Status
 from umbilical.scenario.scenario import Scenario
 from umbilical.studies.engines import in_order
+from umbilical.studies.extremes import fit_gumbel
 
-LEVEL = 0.95
-"""Confidence of the intervals."""
 _RESAMPLED = 400
 _STORED = 0.5
 """Longest time between two samples from which speeds are read, s."""
@@ -81,12 +80,10 @@ class SnapStudy(ResultFaces):
     @property
     def rule_of_thumb(self) -> float:
         """Static tension and v sqrt(K M), N: v the largest impact speed, K = EA/l, M = m + A. It knows no waves."""
-        rope_length = float(top_at(self.scenario.winch, 0.0).length)
         body = body_data(self.scenario)
         mass = body.mass + float(vector_of(body.added_mass)[2])
-        return self.static_tension + float(self.impact_speed.max()) * sqrt(
-            stiffness(self.scenario) / rope_length * mass
-        )
+        rope = stiffness(self.scenario) / float(top_at(self.scenario.winch, 0.0).length)
+        return self.static_tension + float(self.impact_speed.max()) * sqrt(rope * mass)
 
 
 def snap(
@@ -105,11 +102,11 @@ def snap(
         ScenarioError: the scenario is refused, is no rope, or its seeds change nothing.
     """
     check_seeds(scenario, seeds)
-    sea = scenario.environment.sea
+    sea, period = scenario.environment.sea, scenario.control.period
     chosen = (sea.seed if sea else 0) + np.arange(seeds)
-    kept = {} if scenario.output.interval <= _STORED else {"output.interval": _near(_STORED, scenario.control.period)}
-    changed = [scenario.replace({"environment.sea.seed": seed, **kept}) for seed in chosen.tolist()]
-    rows = in_order(_one, changed, progress, workers)
+    often = {"output.interval": period * max(1.0, _STORED // period)} if scenario.output.interval > _STORED else {}
+    changed = [scenario.replace({"environment.sea.seed": seed, **often}) for seed in chosen.tolist()]
+    rows = in_order(_run_seed, changed, progress, workers)
     completed, tension, snaps, largest, slack, speed = np.array([numbers for numbers, _ in rows]).T
     reasons = tuple(dict.fromkeys(reason for _, reason in rows if reason))
     good = completed > 0.0
@@ -119,38 +116,32 @@ def snap(
     )  # fmt: skip
 
 
-def _near(interval: float, period: float) -> float:
-    """The multiple of a control period that is just within an interval; one period at the least."""
-    return period * max(1.0, interval // period)
-
-
 def check_seeds(scenario: Scenario, seeds: int) -> None:
     """Refuse what no seeds say anything of.
 
     Raises:
         ScenarioError: no rope, no sea, or no seeds.
     """
-    wrong = None
-    if scenario.model != "rope":
-        wrong = Problem("model", f'"{scenario.model}"', '"rope"', "a string never goes slack", 'set model = "rope"')
-    elif scenario.environment.sea is None:
-        reason = "without a sea every seed gives the same motion of the vessel"
-        wrong = Problem("environment.sea", "left out", "a section", reason, "systems of waves and a vessel")
-    elif seeds < 1:
-        wrong = Problem("seeds", str(seeds), "1 or more", "there is nothing to say of none", "20, or 100 for a tail")
-    if wrong:
-        raise ScenarioError([wrong], scenario.name)
+    still = "without a sea every seed gives the same motion of the vessel"
+    wrong = {
+        ("model", f'"{scenario.model}"', '"rope"', "a string never goes slack", 'set model = "rope"'):
+            scenario.model != "rope",
+        ("environment.sea", "left out", "a section", still, "systems of waves and a vessel"):
+            scenario.environment.sea is None,
+        ("seeds", str(seeds), "1 or more", "there is nothing to say of none", "20, or 100 for a tail"): seeds < 1,
+    }  # fmt: skip
+    if found := [Problem(*words) for words, is_so in wrong.items() if is_so]:
+        raise ScenarioError(found, scenario.name)
 
 
-def _one(scenario: Scenario) -> tuple[tuple[float, ...], str]:
+def _run_seed(scenario: Scenario) -> tuple[tuple[float, ...], str]:
     """Whether it completed, largest tension, snaps, largest snap, whether it was slack, largest impact speed; and why
     it did not complete."""
     run = simulate(scenario)
-    m = run.metrics
+    m, completed = run.metrics, run.status is Status.COMPLETED
     sheave = np.gradient(run["vessel_position"].values[:, 2], run["time"].values)
     impact = float(np.abs(run["body_velocity"].values[:, 2] - sheave).max())
     largest = max(m["top_tension_peak"], m["end_tension_peak"])
-    completed = run.status is Status.COMPLETED
     numbers = (completed, largest, m["snaps"], m.get("largest_snap", 0.0), m["slack_share"] > 0.0, impact)
     return numbers, "" if completed else run.reason
 
@@ -159,10 +150,5 @@ def _extreme(tension: np.ndarray, seed: int) -> Extreme | None:
     """Fit by maximum likelihood; the interval from fits to samples drawn from the fit."""
     if tension.size < _FEWEST:
         return None
-    location, scale = gumbel_r.fit(tension)
-    dice = np.random.default_rng(seed)
-    drawn = np.asarray(gumbel_r.rvs(location, scale, size=(_RESAMPLED, tension.size), random_state=dice))
-    again = [gumbel_r.ppf(0.99, *gumbel_r.fit(sample)) for sample in drawn]
-    low, high = np.quantile(again, [(1.0 - LEVEL) / 2.0, (1.0 + LEVEL) / 2.0])
-    value = float(gumbel_r.ppf(0.99, location, scale))
-    return Extreme(float(location), float(scale), Estimate(value, float(low), float(high)))
+    fit, exceeded = fit_gumbel(tension, lambda fit: float(gumbel_r.ppf(0.99, *fit)), again=_RESAMPLED, seed=seed)
+    return Extreme(*fit, exceeded)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,12 +24,12 @@ _PARTS = ".umbilical-*.part"
 """What a process leaves that was killed while it wrote."""
 
 
+@dataclass(frozen=True)
 class Store:
     """The open folder of a study, locked by this process."""
 
-    def __init__(self, folder: Path, journal: Journal) -> None:
-        self.folder = folder
-        self.journal = journal
+    folder: Path
+    journal: Journal
 
     def entries(self) -> Iterator[Any]:
         """Every line of the journal so far."""
@@ -64,23 +65,15 @@ def open_store(folder: Path, study: Study, task: str, *, resume: bool, force: bo
         if force:
             _clear(folder)
         _settle(folder, study, task, resume)
-        journal = Journal(folder / JOURNAL)
-        try:
+        with closing(Journal(folder / JOURNAL)) as journal:
             yield Store(folder, journal)
-        finally:
-            journal.close()
 
 
 def study_fingerprint(study: Study, task: str) -> dict[str, Any]:
     """What must be equal for two parts of a study to fit together bit for bit."""
     kernels = compiling.cache_folder().name  # a hash of every kernel source and of the versions that compile them
-    return {
-        "task": task,
-        "study_hash": study.hash,
-        "version": __version__,
-        "kernels": kernels,
-        "metrics": list(NAMES),
-    }
+    found = (task, study.hash, __version__, kernels, list(NAMES))
+    return dict(zip(_WORDS, found, strict=True))
 
 
 def _settle(folder: Path, study: Study, task: str, resume: bool) -> None:
@@ -89,13 +82,10 @@ def _settle(folder: Path, study: Study, task: str, resume: bool) -> None:
     if found is None:
         content = {**mine, "name": study.name, "study": study.to_toml()}
         files.write(folder / MANIFEST, (json.dumps(content, indent=1) + "\n").encode())
-        return
-    if not resume:
+    elif not resume:
         raise OutputError(f"{folder}: holds a study already; --resume goes on with it, --force begins anew")
-    different = [name for name, value in mine.items() if found[name] != value]
-    if different:
-        reason = _WORDS[different[0]]
-        raise FileError(f"{folder}: was begun with {reason}, and the parts would not fit; --force begins anew")
+    elif different := [reason for name, reason in _WORDS.items() if found[name] != mine[name]]:
+        raise FileError(f"{folder}: was begun with {different[0]}, and the parts would not fit; --force begins anew")
 
 
 def _manifest(folder: Path) -> dict[str, Any] | None:
@@ -118,16 +108,13 @@ _WORDS = {
 
 def _refuse_strangers(folder: Path, resume: bool) -> None:
     """Leave folders alone that hold something else: without a manifest no file is ours, whatever its name."""
-    strangers = sorted(entry.name for entry in folder.iterdir() if not _is_lock(entry) and not entry.match(_PARTS))
+    lock = folder / LOCK  # ours is an empty file
+    ours = [lock.name] if lock.is_file() and lock.stat().st_size == 0 else []
+    strangers = sorted(e.name for e in folder.iterdir() if e.name not in ours and not e.match(_PARTS))
     if strangers and _manifest(folder) is None:
         if resume and MANIFEST in strangers:
             raise FileError(f"{folder / MANIFEST}: is damaged, or no manifest of a study; name another folder")
         raise OutputError(f"{folder}: holds {strangers[0]}, and no study; name another folder")
-
-
-def _is_lock(entry: Path) -> bool:
-    """Our lock is an empty file."""
-    return entry.name == LOCK and entry.is_file() and entry.stat().st_size == 0
 
 
 def _clear(folder: Path) -> None:
