@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from umbilical.analysis.paired import Comparison, Estimate
+from umbilical.analysis.paired import Estimate
 from umbilical.faces.conclusion import Conclusion, Face
 from umbilical.quantities import METRICS
 from umbilical.studies import statistics
 from umbilical.studies.members import Draws
 from umbilical.studies.rows import STATUSES
-from umbilical.studies.sensitivity import Influence, rank
+from umbilical.studies.sensitivity import influences
 from umbilical.studies.statistics import interval_text, percentage
 from umbilical.studies.sweep import worst
-from umbilical.tables import shown_unit, text_table, wrapped
+from umbilical.tables import text_table, wrapped
 
 if TYPE_CHECKING:
     from umbilical.studies.results import StudyResult
@@ -35,7 +36,7 @@ def _text(
     """What stands below the headline: endings, distributions, comparisons with an arm (the first), the worst, and where
     a metric is named which draws matter for it.
     """
-    study, chosen = result.study, metrics or _usual(result)
+    study, chosen = result.study, metrics or tuple(name for name in USUAL if name in result.metrics)
     parts = [wrapped(study.description)]
     parts += [_endings(result), _reasons(result)]
     for metric in chosen:
@@ -57,10 +58,6 @@ def _conclusion(result: StudyResult, *_: object) -> Conclusion:
     return Conclusion("DOES_NOT_HOLD" if lost else "HOLDS", headline)
 
 
-def _usual(result: StudyResult) -> tuple[str, ...]:
-    return tuple(name for name in USUAL if name in result.metrics)
-
-
 def endings(result: StudyResult) -> dict[str, dict[str, int]]:
     """How many members ended how, by arm."""
     return {
@@ -68,10 +65,17 @@ def endings(result: StudyResult) -> dict[str, dict[str, int]]:
     }
 
 
+def _table(
+    arms: Sequence[str], head: Sequence[str], cells: Callable[[str], Iterable[str]], *, right: bool = True
+) -> str:
+    """A line for each arm below a head; nothing where there is no arm."""
+    rows = [head, *((arm, *cells(arm)) for arm in arms)]
+    return text_table(rows, range(1, len(head)) if right else ()) if arms else ""
+
+
 def _endings(result: StudyResult) -> str:
-    rows = [("how they ended", *STATUSES)]
-    rows += [(arm, *(str(count) for count in found.values())) for arm, found in endings(result).items()]
-    return text_table(rows, right=range(1, len(STATUSES) + 1))
+    found = endings(result)
+    return _table(result.arms, ("how they ended", *STATUSES), lambda arm: map(str, found[arm].values()))
 
 
 def _reasons(result: StudyResult) -> str:
@@ -87,39 +91,41 @@ def _reasons(result: StudyResult) -> str:
 def _distribution(result: StudyResult, metric: str) -> str:
     """Median and 95 % quantile of each arm."""
     word = METRICS[metric]
-    rows = [(f"{metric} [{shown_unit(word.unit) or '1'}]", "median", "95 % quantile")]
-    rows += [
-        (arm, *(interval_text(statistics.at(result, metric, arm, share)) for share in _SHARES)) for arm in result.arms
-    ]
-    return f"{text_table(rows)}\n  {word.meaning}"
+    head = (f"{metric} [{word.unit}]", "median", "95 % quantile")
+
+    def cells(arm: str) -> Iterable[str]:
+        return (interval_text(statistics.at(result, metric, arm, share)) for share in _SHARES)
+
+    return f"{_table(result.arms, head, cells, right=False)}\n  {word.meaning}"
 
 
 def _comparison(result: StudyResult, metric: str, first: str) -> str:
     """Every other arm against one, on the same draws."""
-    unit = shown_unit(METRICS[metric].unit) or "1"
-    rows = [(f"against '{first}', draw by draw", "ratio", f"difference [{unit}]", "smaller in")]
-    for arm in result.arms:
-        if arm != first:
-            found = statistics.against(result, metric, arm, first)
-            rows.append((arm, interval_text(found.ratio), interval_text(found.difference), percentage(found.better)))
-    return text_table(rows) if len(rows) > 1 else ""
+    head = (f"against '{first}', draw by draw", "ratio", f"difference [{METRICS[metric].unit}]", "smaller in")
+
+    def cells(arm: str) -> Iterable[str]:
+        found = statistics.against(result, metric, arm, first)
+        return interval_text(found.ratio), interval_text(found.difference), percentage(found.better)
+
+    return _table([arm for arm in result.arms if arm != first], head, cells, right=False)
 
 
 def _exceedances(result: StudyResult) -> str:
     limits = result.study.limits.items()
-    rows = [("probability of", *(f"{name} > {limit:g}" for name, limit in limits))]
-    for arm in result.arms:
-        rows.append((arm, *(percentage(statistics.beyond(result, name, arm, limit)) for name, limit in limits)))
-    return text_table(rows, right=range(1, len(rows[0])))
+
+    def cells(arm: str) -> Iterable[str]:
+        return (percentage(statistics.beyond(result, name, arm, limit)) for name, limit in limits)
+
+    return _table(result.arms, ("probability of", *(f"{name} > {limit:g}" for name, limit in limits)), cells)
 
 
 def _worst(result: StudyResult, metric: str) -> str:
-    rows = [("worst members", *(f"{metric}, {k}." for k in range(1, _WORST + 1)))]
-    for arm in result.arms:
+    def cells(arm: str) -> Iterable[str]:
         values = result.values(metric, arm)
         found = [f"#{number}: {values[number - 1]:.4g}" for number in worst(result, metric, arm, _WORST)]
-        rows.append((arm, *found, *[""] * (_WORST - len(found))))
-    return text_table(rows, right=range(1, _WORST + 1))
+        return [*found, *[""] * (_WORST - len(found))]
+
+    return _table(result.arms, ("worst members", *(f"{metric}, {k}." for k in range(1, _WORST + 1))), cells)
 
 
 def _sensitivity_text(result: StudyResult, metric: str) -> str:
@@ -129,29 +135,14 @@ def _sensitivity_text(result: StudyResult, metric: str) -> str:
         MissingPartnerError: SALib is not installed.
     """
     parts = []
-    for arm, found in _influences(result, metric).items():
+    for arm, found in influences(result, metric, result.arms).items():
         if isinstance(found, str):
             parts.append(f"{arm}: {found}")
             continue
         rows = [(f"{metric}, {arm}", "first", "+-", "total or deviation")]
-        rows += [(i.name, *(_or_dash(value) for value in i[1:])) for i in found]
+        rows += [(i.name, *("-" if np.isnan(value) else f"{value:.3g}" for value in i[1:])) for i in found]
         parts.append(text_table(rows, right=(1, 2, 3)))
     return "\n\n".join(parts)
-
-
-def _influences(result: StudyResult, metric: str) -> dict[str, list[Influence] | str]:
-    """By arm what matters, or why nobody can tell."""
-    found: dict[str, list[Influence] | str] = {}
-    for arm in result.arms:
-        try:
-            found[arm] = rank(result, metric, arm)
-        except ValueError as error:
-            found[arm] = str(error)
-    return found
-
-
-def _or_dash(value: float) -> str:
-    return "-" if np.isnan(value) else f"{value:.3g}"
 
 
 def _document(
@@ -159,17 +150,14 @@ def _document(
 ) -> dict[str, Any]:
     """A study's result as ``--json`` prints it; comparisons are with an arm, the first if none is named."""
     first, limits = against or result.arms[0], result.study.limits.items()
-    document = {
+    document: dict[str, Any] = {
         "study": result.study.name,
         "study_hash": result.study.hash,
         "members": result.data.sizes["member"],
         "endings": endings(result),
         "none_completed": list(result.lost),
         "reasons": {arm: [r._asdict() for r in statistics.reasons(result, arm)[:_REASONS]] for arm in result.arms},
-        "metrics": {
-            metric: {arm: _numbers(result, metric, arm, first) for arm in result.arms}
-            for metric in metrics or result.metrics
-        },
+        "metrics": {m: {a: _numbers(result, m, a, first) for a in result.arms} for m in metrics or result.metrics},
         "against": first,
         "limits": {
             name: {arm: _estimate(statistics.beyond(result, name, arm, limit)) for arm in result.arms}
@@ -177,27 +165,25 @@ def _document(
         },
         "intervals": statistics.caveat(result.study.design),
     }
-    return document | ({"sensitivity": _sensitivity(result, sensitivity)} if sensitivity else {})
-
-
-def _sensitivity(result: StudyResult, metric: str) -> dict[str, Any]:
-    arms = _influences(result, metric)
-    return {
-        "metric": metric,
-        "arms": {
-            a: {"reason": f} if isinstance(f, str) else {"draws": [i._asdict() for i in f]} for a, f in arms.items()
-        },
-    }
+    if sensitivity:
+        arms = {
+            arm: {"reason": found} if isinstance(found, str) else {"draws": [each._asdict() for each in found]}
+            for arm, found in influences(result, sensitivity, result.arms).items()
+        }
+        document["sensitivity"] = {"metric": sensitivity, "arms": arms}
+    return document
 
 
 def _numbers(result: StudyResult, metric: str, arm: str, first: str) -> dict[str, Any]:
-    names = zip(("median", "q95"), _SHARES, strict=True)
-    found: dict[str, Any] = {name: _estimate(statistics.at(result, metric, arm, share)) for name, share in names}
+    found: dict[str, Any] = {
+        name: _estimate(statistics.at(result, metric, arm, share))
+        for name, share in zip(("median", "q95"), _SHARES, strict=True)
+    }
     found["worst"] = worst(result, metric, arm, _WORST)
     if arm != first:
-        members, *compared = statistics.against(result, metric, arm, first)
-        told_apart = zip(Comparison._fields[1:], map(_estimate, compared), strict=True)
-        found["compared"] = {"members": members, **dict(told_apart)}
+        compared = statistics.against(result, metric, arm, first)._asdict()
+        members = {"members": compared.pop("members")}
+        found["compared"] = members | {name: _estimate(estimate) for name, estimate in compared.items()}
     return found
 
 

@@ -12,7 +12,7 @@ from umbilical.errors import expect
 from umbilical.plots.figure import COLOURS, QUIET, dress, new_figure
 from umbilical.plots.study_map import USUAL, largest_mean, numbers_drawn, plot_map
 from umbilical.quantities import METRICS, label
-from umbilical.studies.sensitivity import Influence, rank
+from umbilical.studies.sensitivity import influences
 from umbilical.studies.statistics import against, at, beyond, interval_text, percentage, ratios
 from umbilical.studies.sweep import worst
 
@@ -103,12 +103,15 @@ def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *,
         MissingPartnerError: SALib is not installed.
         ValueError: too few members, or the metric varies in no arm.
     """
-    found = _influences(result, metric, (arm,) if arm else result.arms)
+    ranked = influences(result, metric, (arm,) if arm else result.arms)
+    found = {name: each for name, each in ranked.items() if not isinstance(each, str)}
+    if not found:
+        raise ValueError([*ranked.values()][-1])
     names = [influence.name for influence in next(iter(found.values()))][:_SHOWN]
     ax = ax or new_figure(7.0, 4.2).add_subplot()
     height = 0.8 / len(found)
-    for place, (name, influences) in enumerate(found.items()):
-        by_name = {influence.name: influence for influence in influences}
+    for place, (name, ranking) in enumerate(found.items()):
+        by_name = {influence.name: influence for influence in ranking}
         rows = [by_name[drawn] for drawn in names]
         lower = np.arange(len(rows)) + (place - (len(found) - 1) / 2.0) * height
         errors = np.nan_to_num([row.first_error for row in rows])
@@ -121,19 +124,6 @@ def plot_sensitivity(result: StudyResult, metric: str = USUAL, arm: str = "", *,
     ax.set_xlabel(f"mean effect on {metric} [{unit}]" if result.study.design == "morris" else f"{share}, {metric}")
     ax.tick_params(labelsize=7)
     return _finish(ax, f"{result.data.sizes['member']} members ({result.study.design})")
-
-
-def _influences(result: StudyResult, metric: str, arms: tuple[str, ...]) -> dict[str, list[Influence]]:
-    """By arm; those in which nobody can tell are left out, unless it is all of them."""
-    found, reason = {}, ValueError(f"{metric}: there is no arm")
-    for arm in arms:
-        try:
-            found[arm] = rank(result, metric, arm)
-        except ValueError as error:
-            reason = error
-    if not found:
-        raise reason
-    return found
 
 
 def plot_study(result: StudyResult, metric: str = USUAL) -> Figure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -58,6 +59,21 @@ def rank(result: StudyResult, metric: str, arm: str) -> list[Influence]:
     names = [str(name) for name in result["variable"].values]
     influences = [Influence(n, float(a), float(b), float(c)) for n, a, b, c in zip(names, *columns, strict=True)]
     return sorted(influences, key=lambda influence: -np.nan_to_num(influence.first, nan=-np.inf))
+
+
+def influences(result: StudyResult, metric: str, arms: Iterable[str]) -> dict[str, list[Influence] | str]:
+    """By arm what :func:`rank` gives, or why nobody can tell.
+
+    Raises:
+        MissingPartnerError: SALib is not installed.
+    """
+    found: dict[str, list[Influence] | str] = {}
+    for arm in arms:
+        try:
+            found[arm] = rank(result, metric, arm)
+        except ValueError as error:
+            found[arm] = str(error)
+    return found
 
 
 def _of_a_grid(points: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from functools import partial
@@ -86,8 +86,7 @@ def sweep(
 
 def in_memory(draws: Draws, engine: Executor, progress: Progress = lambda share: None) -> StudyResult:
     """The result of a study whose controllers have been checked."""
-    found = _rows(engine, draws, range(1, len(draws) + 1))
-    return assemble_study(draws.study, _counted(found, len(draws), 0, progress))
+    return assemble_study(draws.study, _rows(engine, draws, set(), progress))
 
 
 def open_engine(study: Study, workers: Executor | int | None) -> AbstractContextManager[Executor]:
@@ -98,16 +97,20 @@ def open_engine(study: Study, workers: Executor | int | None) -> AbstractContext
     return processes(workers or default_jobs())
 
 
-def _rows(engine: Executor, draws: Draws, numbers: Iterable[int]) -> Iterator[Row]:
-    return in_any_order(engine, partial(run_member, draws), map(draws.member, numbers))
+def _rows(engine: Executor, draws: Draws, done: Collection[int], progress: Progress) -> Iterator[Row]:
+    """Rows of the members that are not done, in any order."""
+    members = (draws.member(number) for number in range(1, len(draws) + 1) if number not in done)
+    progress(len(done) / len(draws))
+    for count, row in enumerate(in_any_order(engine, partial(run_member, draws), members), start=len(done) + 1):
+        yield row
+        progress(count / len(draws))
 
 
 def _into(store: Store, draws: Draws, engine: Executor, progress: Progress, report: Report) -> StudyResult:
     study, done = draws.study, {row.number for row in _stored_rows(store, draws)}
     if study.trajectories.keep != "none":
         _check_room(store, draws, report)
-    found = _rows(engine, draws, (number for number in range(1, len(draws) + 1) if number not in done))
-    for row in _counted(found, len(draws), len(done), progress):
+    for row in _rows(engine, draws, done, progress):
         _store_runs(store, row, range(len(study.arms)))
         store.journal.append(row[:2])
     result = assemble_study(study, _stored_rows(store, draws))
@@ -129,13 +132,6 @@ def _store_runs(store: Store, row: Row, arms: Sequence[int]) -> None:
             store.save(run, run_name(row.number, arm))
 
 
-def _counted(rows: Iterator[Row], total: int, done: int, progress: Progress) -> Iterator[Row]:
-    progress(done / total)
-    for count, row in enumerate(rows, start=done + 1):
-        yield row
-        progress(count / total)
-
-
 def run_name(member: int, arm: int) -> str:
     """Name of a complete run in a study's folder; arms are numbered from 1 there."""
     return f"{RUNS}/member-{member:06d}-arm-{arm + 1}.nc"
@@ -154,9 +150,8 @@ def _check_room(store: Store, draws: Draws, report: Report) -> None:
     """Say what complete runs will take, and refuse what there is no room for; those that are there need none."""
     there = sum(file.stat().st_size for file in (store.folder / RUNS).glob(STORED))
     need, room = max(disk_needed(draws) - there, 0), shutil.disk_usage(store.folder).free
-    report(
-        f"complete runs ({draws.study.trajectories.keep}): about {need / 1e6:.3g} MB will be stored beside the result"
-    )
+    keep = draws.study.trajectories.keep
+    report(f"complete runs ({keep}): about {need / 1e6:.3g} MB will be stored beside the result")
     if need > room:
         raise OutputError(
             f"{store.folder}: complete runs would take {need / 1e9:.3g} GB, and {room / 1e9:.3g} GB are free; "
@@ -182,5 +177,5 @@ def _keep_the_worst(store: Store, draws: Draws, engine: Executor, result: StudyR
         lacking = [member for member in wanted if not (store.folder / run_name(member, number)).exists()]
         whole = keep.model_copy(update={"keep": "all"})
         alone = Draws(draws.study.model_copy(update={"arms": (arm,), "trajectories": whole}))
-        for row in _rows(engine, alone, lacking):
+        for row in in_any_order(engine, partial(run_member, alone), map(draws.member, lacking)):
             _store_runs(store, row, [number])
