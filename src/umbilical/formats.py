@@ -6,12 +6,15 @@ Each is a function between a dataset and bytes. No clock, host or path enters th
 from __future__ import annotations
 
 import io
+import platform
 from collections.abc import Callable, Iterable, Iterator
+from importlib.metadata import version
 from numbers import Integral
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from umbilical import __version__
 from umbilical.errors import FileError
 from umbilical.machine import in_words, memory
 
@@ -23,6 +26,13 @@ RESULT_SCHEMA = 2
 """Version of the layout of a result file; raised when a reader of the old layout would misread the new one."""
 
 _SIGNATURE = b"\x89HDF\r\n\x1a\n"
+
+
+def versions() -> dict[str, str]:
+    """What a result depends on beside its scenario: the version of this package, of numpy, numba and Python."""
+    found = {"umbilical": __version__, "numpy": np.__version__, "numba": version("numba")}
+    found["python"] = ".".join(platform.python_version_tuple()[:2])
+    return {f"version_{name}": each for name, each in found.items()}
 
 
 def to_netcdf(data: xarray.Dataset) -> bytes:

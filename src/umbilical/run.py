@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from html import escape
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from umbilical import __version__, files
+from umbilical import files
 from umbilical.contents import CONTENTS, contents_of, stated_sizes
 from umbilical.coordinates import attributes, coordinates, dimensions
 from umbilical.errors import OutputError
-from umbilical.formats import EXPORTS, RESULT_SCHEMA, to_netcdf
+from umbilical.formats import EXPORTS, RESULT_SCHEMA, to_netcdf, versions
 from umbilical.quantities import CHANNELS, METRICS
 from umbilical.result import ResultFaces
 from umbilical.stored_numbers import METRIC
@@ -329,8 +327,5 @@ def _identity(scenario: Scenario) -> dict[str, str | int]:
         "scenario": scenario.to_toml(),
         "scenario_hash": scenario.hash,
         "seed": scenario.seed,
-        "version_umbilical": __version__,
-        "version_numpy": np.__version__,
-        "version_numba": version("numba"),
-        "version_python": ".".join(platform.python_version_tuple()[:2]),
+        **versions(),
     }

@@ -23,7 +23,7 @@ from umbilical.contents import (
 )
 from umbilical.coordinates import dimensions
 from umbilical.errors import FileError, ScenarioError
-from umbilical.formats import from_netcdf
+from umbilical.formats import from_netcdf, versions
 from umbilical.quantities import CHANNELS
 from umbilical.run import CONTROLLER, SNAPS, Run, Status
 from umbilical.scenario.scenario import parse_document
@@ -69,7 +69,7 @@ def controller_name(path: str | os.PathLike[str]) -> str:
 
 
 _ORIGIN = dict.fromkeys(("title", "convention", "scenario", "scenario_hash", "reason"), text_rule)
-_VERSIONS = dict.fromkeys(("version_umbilical", "version_numpy", "version_numba", "version_python"), text_rule)
+_VERSIONS = dict.fromkeys(versions(), text_rule)
 _ENDING = {"status": one_of(Status.__members__), "end_time": instant, "notices": json_of(list, str)}
 _SOMETIMES = {SNAPS: pairs, CONTROLLER: text_rule}
 

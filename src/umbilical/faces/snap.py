@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from umbilical.faces.conclusion import Conclusion, Face
+from umbilical.studies.statistics import interval_text
 from umbilical.tables import attributes
 
 if TYPE_CHECKING:
@@ -17,11 +18,11 @@ def _conclusion(found: SnapStudy, risk: float | None = None) -> Conclusion:
         return Conclusion("UNRESOLVED", f"UNRESOLVED, not every seed completed: {_told(found)}")
     if risk is None:
         return Conclusion("NOT_ASKED", _told(found))
-    if found.slack.high <= risk:
-        return Conclusion("HOLDS", f"{_told(found)}; within the accepted {risk:g}")
-    if found.slack.low > risk:
-        return Conclusion("DOES_NOT_HOLD", f"{_told(found)}; ABOVE the accepted {risk:g}")
-    return Conclusion("UNRESOLVED", f"UNRESOLVED, more seeds are needed for {risk:g}: {_told(found)}")
+    if found.slack.low <= risk < found.slack.high:
+        return Conclusion("UNRESOLVED", f"UNRESOLVED, more seeds are needed for {risk:g}: {_told(found)}")
+    within = found.slack.high <= risk
+    told = f"{_told(found)}; {'within' if within else 'ABOVE'} the accepted {risk:g}"
+    return Conclusion("HOLDS" if within else "DOES_NOT_HOLD", told)
 
 
 def _told(found: SnapStudy) -> str:
@@ -54,11 +55,8 @@ def _text(found: SnapStudy, risk: float | None = None) -> str:
 def _fitted(found: SnapStudy) -> str:
     if (fit := found.extreme) is None:
         return "no distribution of the largest tensions: fewer than five runs completed"
-    e = fit.exceeded
-    return (
-        f"Gumbel of the largest tensions: location {fit.location:.4g} N, scale {fit.scale:.4g} N; one run in a hundred "
-        f"exceeds {e.value:.4g} N ({e.low:.4g} to {e.high:.4g})"
-    )
+    law = f"Gumbel of the largest tensions: location {fit.location:.4g} N, scale {fit.scale:.4g} N"
+    return f"{law}; one run in a hundred exceeds {interval_text(fit.exceeded, unit=' N')}"
 
 
 def _document(found: SnapStudy, risk: float | None = None) -> dict[str, Any]:

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-import platform
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from umbilical import __version__, files
+from umbilical import files
 from umbilical.contents import CONTENTS, check_contents, contents_of, json_of, kind_of, refuse, text_rule, wrong_array
 from umbilical.errors import FileError, ScenarioError
-from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf
+from umbilical.formats import RESULT_SCHEMA, from_netcdf, to_netcdf, versions
 from umbilical.quantities import METRICS
 from umbilical.result import ResultFaces
 from umbilical.run import CONVENTION
@@ -178,10 +176,7 @@ def _identity(study: Study) -> dict[str, str | int]:
         "study": study.to_toml(),
         "study_hash": study.hash,
         "limits": json.dumps(study.limits, sort_keys=True),
-        "version_umbilical": __version__,
-        "version_numpy": np.__version__,
-        "version_numba": version("numba"),
-        "version_python": ".".join(platform.python_version_tuple()[:2]),
+        **versions(),
     }
 
 
@@ -219,8 +214,7 @@ def is_study_file(path: str | os.PathLike[str]) -> bool:
     return kind_of(from_netcdf(files.read(path), str(path))) == KIND
 
 
-_TEXTS = ("title", "convention", "study", "study_hash")
-_TEXTS += ("version_umbilical", "version_numpy", "version_numba", "version_python")
+_TEXTS = ("title", "convention", "study", "study_hash", *versions())
 _RULES = {**dict.fromkeys(_TEXTS, text_rule), "limits": json_of(dict, int, float)}
 _CELLS = ("member", "arm")
 _NEEDED = {"status": (_CELLS, "i"), "reason": (_CELLS, "U"), "end_time": (_CELLS, "f")}

@@ -15,12 +15,10 @@ import numpy as np
 from umbilical.engine.simulate import simulate
 from umbilical.errors import OutputError, expect
 from umbilical.formats import to_netcdf
-from umbilical.studies.controllers import check_controllers
 from umbilical.studies.engines import default_jobs, in_any_order, opened, processes
-from umbilical.studies.grids import on_one_grid
 from umbilical.studies.members import Draws
+from umbilical.studies.prepare import prepare_study
 from umbilical.studies.results import StudyResult, assemble_study
-from umbilical.studies.room import check_study_memory
 from umbilical.studies.rows import Row, from_entry, run_member
 from umbilical.studies.store import RUNS, STORED, Store, open_store
 from umbilical.studies.study import Study
@@ -73,9 +71,7 @@ def sweep(
     96
     """
     expect(study, "Study", "load_study")
-    study = on_one_grid(study)
-    check_study_memory(study)
-    check_controllers(study, trust=trust)
+    study = prepare_study(study, trust=trust)
     draws = Draws(study)
     with open_engine(study, engine or jobs) as pool:
         if folder is None:

@@ -23,12 +23,10 @@ from umbilical.scenario.document import extend
 from umbilical.scenario.problems import nearest
 from umbilical.scenario.scenario import validate
 from umbilical.studies.constraints import CONSTRAINTS, Constraint
-from umbilical.studies.controllers import check_controllers
-from umbilical.studies.grids import on_one_grid
 from umbilical.studies.journal import BEGIN_ANEW
 from umbilical.studies.members import Draws
+from umbilical.studies.prepare import prepare_study
 from umbilical.studies.results import StudyResult
-from umbilical.studies.room import check_study_memory
 from umbilical.studies.search import Point, TrialVerdict, front, search
 from umbilical.studies.store import open_store
 from umbilical.studies.study import Arm, Objective, Study, Tuning
@@ -149,9 +147,7 @@ def tune(
     tuning = tuning_of(study)
     known = {**CONSTRAINTS, **(constraints or {})}
     kept = {name: _known(known, name) for name in tuning.constraints}
-    study = on_one_grid(study)
-    check_study_memory(study)
-    check_controllers(study, trust=trust)
+    study = prepare_study(study, trust=trust)
     task = "tune optuna"
     opened = open_store(Path(folder), study, task, resume=resume, force=force) if folder is not None else nullcontext()
     with opened as store, open_engine(study, engine) as pool:

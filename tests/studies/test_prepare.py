@@ -11,7 +11,7 @@ import pytest
 from tests.support.studies import small_study
 from umbilical.errors import ScenarioError
 from umbilical.formats import to_netcdf
-from umbilical.studies import engines, room
+from umbilical.studies import engines, prepare
 from umbilical.studies.members import Draws
 from umbilical.studies.results import assemble_study
 from umbilical.studies.rows import NAMES, Cell, Row, run_member
@@ -41,7 +41,7 @@ def peak_of(study, reason: str = "") -> int:
 @pytest.mark.parametrize("design", ["random", "latin", "sobol"])
 def test_the_estimate_of_memory_is_an_upper_one_and_not_far_off(design):
     study = small_study(members=2048, design=design)
-    assert 0.2 < peak_of(study) / room.memory_needed(study) < 1.0
+    assert 0.2 < peak_of(study) / prepare.memory_needed(study) < 1.0
 
 
 def test_one_long_reason_costs_its_own_length_only():
@@ -50,7 +50,7 @@ def test_one_long_reason_costs_its_own_length_only():
 
 
 def test_what_the_machine_cannot_hold_is_refused_with_the_number(monkeypatch, tmp_path):
-    monkeypatch.setattr(room.machine, "memory", lambda: 1e9)
+    monkeypatch.setattr(prepare.machine, "memory", lambda: 1e9)
     monkeypatch.setattr(Draws, "points", property(lambda self: pytest.fail("it was drawn")))
     tuning = {"arm": "PD", "gains": [{"key": "control.law.position_gain", "low": 1.0, "high": 2.0}]}
     study = small_study(members=10_000_000, tuning={**tuning, "objectives": [{"metric": "tip_peak"}]})
@@ -60,9 +60,9 @@ def test_what_the_machine_cannot_hold_is_refused_with_the_number(monkeypatch, tm
         assert [problem.key for problem in caught.value.problems] == ["members"]
         assert not (tmp_path / "out").exists()
     most = int(caught.value.problems[0].bound.split()[2].rstrip(","))
-    room.check_study_memory(study.model_copy(update={"members": most}))
+    prepare.check_study_memory(study.model_copy(update={"members": most}))
     with pytest.raises(ScenarioError):
-        room.check_study_memory(study.model_copy(update={"members": most + 1}))
+        prepare.check_study_memory(study.model_copy(update={"members": most + 1}))
 
 
 def test_a_grid_counts_its_own_members():
@@ -73,7 +73,7 @@ def test_a_grid_counts_its_own_members():
 
 
 def test_the_machine_has_memory():
-    assert room.machine.memory() > 1e8
+    assert prepare.machine.memory() > 1e8
 
 
 @pytest.mark.parametrize("engine", [engines.threads(2), pytest.param(engines.processes(2), marks=pytest.mark.slow)])
