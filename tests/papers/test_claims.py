@@ -67,7 +67,9 @@ def test_observers_that_see_nothing_fail(evidence: Evidence, runs: Runs) -> None
     dead = given(evidence, none__without=without_estimates(runs[PROPOSED]))
     assert claims_vibration.c5(dead).verdict is Verdict.FAILS
     assert claims_faults.c9(dead).verdict is Verdict.FAILS
-    assert [n.value for n in make_finding("C9", claims_faults.c9(dead)).numbers[:3]] == pytest.approx([1.0, 1.0, 1.0])
+    assert [n.value for n in make_finding("C9", claims_faults.c9(dead), dead).numbers[:3]] == pytest.approx(
+        [1.0, 1.0, 1.0]
+    )
 
 
 def test_arms_that_are_exchanged_turn_the_comparison(evidence: Evidence, runs: Runs) -> None:
@@ -111,7 +113,7 @@ def test_a_jump_is_asked_of_every_fault_and_at_once(evidence: Evidence, runs: Ru
 
 def test_the_motors_observers_follow_what_is_slow(evidence: Evidence) -> None:
     """C9 names the frequency at which a lag of 1/g_o makes the error that is allowed."""
-    found = make_finding("C9", claims_faults.c9(evidence))
+    found = make_finding("C9", claims_faults.c9(evidence), evidence)
     limit = next(number.value for number in found.numbers if number.name == "d2_limit")
     assert limit / np.hypot(limit, 100.0) == pytest.approx(0.1)
     assert found.when.endswith(f"{limit:.3g} rad/s")

@@ -17,4 +17,4 @@ CLAIMS = {
 
 def judge_claims(evidence: Evidence) -> tuple[Finding, ...]:
     """What becomes of every claim."""
-    return tuple(make_finding(name, claim(evidence)) for name, claim in CLAIMS.items())
+    return tuple(make_finding(name, claim(evidence), evidence) for name, claim in CLAIMS.items())

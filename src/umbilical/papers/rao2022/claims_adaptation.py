@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical import Run, Status
 from umbilical.papers.rao2022.experiments import FAR, GRIDS, OBSERVERS
-from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, short
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, measured, short
 from umbilical.papers.rao2022.maps import BOXED, EXACT, RIM
 from umbilical.papers.rao2022.regions import better, diverged, preset_row, runaways, without_repeats
 
@@ -19,28 +19,13 @@ if TYPE_CHECKING:
 
 def a1(evidence: Evidence) -> Judged:
     """A setting in which adaptation clearly helps, and where in it it does not."""
-    runs, (far, known) = evidence.runs, [evidence.runs[f"blind, stuck, {arm}"] for arm in ("with", "without")]
-    without, misjudged, with_control, far_peak, known_peak = (
-        run.metrics["tip_peak_after_fault"]
-        for run in (*(runs[f"blind, dead, {name}"] for name in ("without", "misjudged", "with")), far, known)
-    )
-    helps = [
-        with_control < BOUNDS["helps"] * without,
-        far.status is Status.COMPLETED and far_peak < BOUNDS["helps"] * known_peak,
-    ]
-    values = {
-        "without_peak": without,
-        "with_peak": with_control,
-        "ratio": with_control / without,
-        "ratio_misjudged": with_control / misjudged,
-        "far_end": far.end_time,
-        "far": FAR,
-        "far_when": _when(far),
-        "known_when": _when(known),
-        **dict.fromkeys(("mapped", "only"), bool(evidence.maps)),
-        **(_where_it_helps(evidence) if evidence.maps else {}),
-    }
-    return Judged(values, all(helps), any(helps))
+    far, known = (evidence.runs[f"blind, stuck, {arm}"] for arm in ("with", "without"))
+    far_ratio = far.metrics["tip_peak_after_fault"] / known.metrics["tip_peak_after_fault"]
+    ratios = measured("A1", evidence.runs)["ratio"], far_ratio if far.status is Status.COMPLETED else np.inf
+    helps = [ratio < BOUNDS["helps"] for ratio in ratios]
+    values = {"far_end": far.end_time, "far": FAR, "far_when": _when(far), "known_when": _when(known)}
+    more = _where_it_helps(evidence) if evidence.maps else {}
+    return Judged(values | more, all(helps), any(helps))
 
 
 def _where_it_helps(evidence: Evidence) -> dict[str, Any]:
@@ -91,7 +76,6 @@ def a2(evidence: Evidence) -> Judged:
         "long_when": _when(long),
         "duration": runs["dead, with"].scenario.duration,
         **edges,
-        **dict.fromkeys(("mapped", "rates"), bool(evidence.maps)),
         **({"rate": _first_lost(evidence)} if evidence.maps else {}),
     }
     return Judged(values, all(lost) and seen.status is Status.DIVERGED, any(lost))
@@ -120,8 +104,6 @@ def a3(evidence: Evidence) -> Judged:
     saved = [b.status is Status.COMPLETED and a.status is Status.DIVERGED for a, b in zip(bare, boxed, strict=True)]
     edges = runaways(evidence.edges, "with")
     values = {
-        "dead_peak": boxed[0].metrics["tip_peak"],
-        "long_peak": boxed[1].metrics["tip_peak"],
         "long_kappa": _kappa(boxed[1], boxed[1].end_time),
         "below": {obs: 1.0 - RIM / (EXACT * edges[f"edge_{obs}"]) for obs in OBSERVERS},
         "saved": saved.count(True),
@@ -129,7 +111,6 @@ def a3(evidence: Evidence) -> Judged:
         "exact": EXACT,
         "rim": RIM,
         "rim_times": RIM / EXACT,
-        "mapped": bool(evidence.maps),
         **(_boxed_maps(evidence) if evidence.maps else {}),
     }
     return Judged(values, all(saved), any(saved))

@@ -7,28 +7,19 @@ from itertools import product
 import numpy as np
 
 from umbilical import Run
-from umbilical.papers.rao2022.claims_vibration import AT
+from umbilical.papers.rao2022.claims_vibration import worst_ratio
 from umbilical.papers.rao2022.experiments import ARMS, CASES, FAULTS, OBSERVERS, Runs, cell
-from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, relative_error
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, measured, relative_error
 from umbilical.papers.rao2022.regions import diverged, reversal, runaways, without_repeats
 
 
 def c6(evidence: Evidence) -> Judged:
     """No fault: known factors are better, and both work."""
-    free = evidence.runs["free"].metrics["tip_peak"]
-    without, with_control = (evidence.runs[cell("none", arm)].metrics for arm in ARMS)
-    peaks = without["tip_peak"], with_control["tip_peak"]
-    values = {
-        "peak_ratio": peaks[0] / peaks[1],
-        "rms_ratio": without["tip_rms"] / with_control["tip_rms"],
-        "worst_left": max(peaks) / free,
-        "free": free,
-        "without": peaks[0],
-        "with_control": peaks[1],
-        **reversal(evidence.gain),
-    }
-    holds = max(values["peak_ratio"], values["rms_ratio"]) < 1.0 and values["worst_left"] < BOUNDS["works"]
-    return Judged(values, holds and not values["when"], holds)
+    names = {"free": "free", "without": cell("none", "without"), "with_control": cell("none", "with")}
+    peaks, given = {k: evidence.runs[n].metrics["tip_peak"] for k, n in names.items()}, measured("C6", evidence.runs)
+    left, found = max(peaks["without"], peaks["with_control"]) / peaks["free"], reversal(evidence.gain)
+    holds = max(given["peak_ratio"], given["rms_ratio"]) < 1.0 and left < BOUNDS["works"]
+    return Judged({"worst_left": left, **peaks, **found}, holds and not found["when"], holds)
 
 
 def c7a(evidence: Evidence) -> Judged:
@@ -43,7 +34,6 @@ def c7a(evidence: Evidence) -> Judged:
         "D_error": max(map(_absorbed, runs.values())),
         "blind_dead_end": abs(evidence.runs["blind, dead, without"].metrics["tip_end"]),
         "lost": f"Lost: {', '.join(lost)}" if lost else "None does",
-        "mapped": bool(maps),
         **runaways(evidence.edges, "without"),
         **dict(zip(("diverged", "cells"), map(sum, zip(*counts.values(), strict=True)), strict=False)),
     }
@@ -68,7 +58,6 @@ def c7b(evidence: Evidence) -> Judged:
         "peak": peaks["with"],
         "ratio": {case: peaks["with"][case] / peaks["without"][case] for case in FAULTS},
         "stays": stays,
-        "mapped": bool(evidence.maps),
         **(lost_in_maps(evidence) if evidence.maps else {}),
     }
     return Judged(values, jumps and stays, jumps or stays)
@@ -153,15 +142,14 @@ def c9(evidence: Evidence) -> Judged:
 def c11(evidence: Evidence) -> Judged:
     """With fault control the vibration is suppressed with and without a fault, against no control."""
     runs, free = evidence.runs, evidence.runs["free"]
-    worst = {case: _worst_left(runs[cell(case, "with")], free) for case in CASES}
+    worst = {case: worst_ratio(runs[cell(case, "with")], free, "peak", "rms") for case in CASES}
     kept = [case for case, left in worst.items() if all_completed([runs[cell(case, "with")]]) and left < 1.0]
     blind = {case: runs[f"blind, {case}, with"] for case in ("none", "dead", "stuck")}
-    alone = {case: _worst_left(run, free) for case, run in blind.items() if all_completed([run])}
+    alone = {case: worst_ratio(run, free, "peak", "rms") for case, run in blind.items() if all_completed([run])}
     blind["none, 400 s"] = runs["blind, none, with, long"]
     lost = [case for case, run in blind.items() if not all_completed([run])]
     values = {
         "worst": worst,
-        "long_left": runs["none, with, endless"].metrics["tip_peak"] / runs["free, long"].metrics["tip_peak"],
         "alone": alone,
         "blind_lost": len(lost),
         "tried": len(blind),
@@ -169,9 +157,3 @@ def c11(evidence: Evidence) -> Judged:
         "kept": kept,
     }
     return Judged(values, len(kept) == len(CASES), bool(kept))
-
-
-def _worst_left(run: Run, free: Run) -> float:
-    """Largest ratio of peaks and root mean squares to those of another run, over the four places."""
-    names = [f"{at}_{kind}" for at in AT for kind in ("peak", "rms")]
-    return max(run.metrics[name] / free.metrics[name] for name in names)
