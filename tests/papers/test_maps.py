@@ -14,7 +14,7 @@ from umbilical.library import load
 from umbilical.papers.rao2022.experiments import ARMS, BELIEVED, OBSERVER, OBSERVERS, preset
 from umbilical.papers.rao2022.ledger import Evidence
 from umbilical.papers.rao2022.maps import EARLY, FACTORS, GAIN_CASES, GRID, PRESET_RATES, SCANS
-from umbilical.papers.rao2022.regions import diverged, lost_at, reversal, same_on_grids
+from umbilical.papers.rao2022.regions import diverged, reversal, runs_away, same_on_grids
 from umbilical.run import Status
 from umbilical.scenario import Scenario
 from umbilical.studies.members import Draws
@@ -130,7 +130,7 @@ def test_a_dead_motor_that_runs_away_was_dead(evidence: Evidence) -> None:
 
 
 def test_runaway_is_told_from_a_large_peak() -> None:
-    assert lost_at([(("none", "without", "on"), gain) for gain in (1.0, 8.0)]) == [False, True]
+    assert [runs_away(("none", "without", "on"), gain) for gain in (1.0, 8.0)] == [False, True]
 
 
 def made_up(with_scale: float):

@@ -146,8 +146,8 @@ def test_the_edges_are_edges(evidence: Evidence) -> None:
     assert proofs.certify(PAPER.replace({proofs.BETA: found.certified}), fix=False).holds
     assert margins(PAPER.replace({proofs.BETA: 0.9 * found.unstable_from}), [450.0]).stable
     assert not margins(PAPER.replace({proofs.BETA: found.unstable_from}), [450.0]).stable
-    assert proofs.edge(lambda x: x < 3.0, (1.0, 8.0), 12) == pytest.approx(3.0, rel=1e-3)
-    assert np.isnan(proofs.edge(lambda x: x < 9.0, (1.0, 8.0), 3))
+    assert proofs.edge_between(lambda x: x < 3.0, 1.0, 8.0, 12) == pytest.approx(3.0, rel=1e-3)
+    assert np.isnan(proofs.edge_between(lambda x: x < 9.0, 1.0, 8.0, 3))
 
 
 @pytest.mark.slow

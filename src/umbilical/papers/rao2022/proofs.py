@@ -50,6 +50,10 @@ def proofs_of(scenario: Scenario) -> Proofs:
     winch = scenario.to_dict()["winch"]
     shortest, longest = sorted((winch["start_length"], winch["end_length"]))
     still = scenario.replace({"winch": {"law": "constant", "length": longest}})
+
+    def stable(beta: float) -> bool:
+        return margins(scenario.replace({BETA: beta}), [shortest]).stable
+
     ours, fixed = (certify(one, fix=False) for one in (scenario, still))
     bounds, cascade = largest_bounds(fixed), margins(scenario, [shortest])
     limits = cascade.judgements[0].margins
@@ -61,27 +65,25 @@ def proofs_of(scenario: Scenario) -> Proofs:
         certified=least_certified(scenario),
         stable=cascade.stable,
         delay=limits.delay.size if limits else float("nan"),
-        unstable_from=edge(
-            lambda beta: margins(scenario.replace({BETA: beta}), [shortest]).stable, STABLE, HALVINGS[1]
-        ),
+        unstable_from=edge_between(stable, *STABLE, HALVINGS[1]),
     )
 
 
 def least_certified(scenario: Scenario) -> float:
     """Slope gain from which on a positive rate of V is proved over the run of a scenario, m/s; nan if none is."""
-    winch = scenario.winch
-    loop, motion = (
-        ideal_constants(scenario),
-        sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration)),
-    )
-    found = edge(lambda beta: best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0, CERTIFIED, HALVINGS[0])
+    winch, loop = scenario.winch, ideal_constants(scenario)
+    motion = sampled(winch, scenario.environment.gravity, slab_edges(winch, scenario.duration))
+
+    def fails(beta: float) -> bool:
+        return best_rate(loop._replace(beta=beta), motion, enough=0.0) <= 0.0
+
+    found = edge_between(fails, *CERTIFIED, HALVINGS[0])
     proved = np.isfinite(found) and certify(scenario.replace({BETA: found}), fix=False).holds
     return found if proved else float("nan")
 
 
-def edge(holds: Callable[[float], bool], between: tuple[float, float], halvings: int) -> float:
+def edge_between(holds: Callable[[float], bool], low: float, high: float, halvings: int) -> float:
     """From where on something no longer holds, by halving on the scale of logarithms; nan if it is not between."""
-    low, high = between
     if not holds(low) or holds(high):
         return float("nan")
     for _ in range(halvings):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,8 @@ from umbilical import Status, load, simulate
 from umbilical.papers.rao2022.experiments import ARMS, GRIDS, OBSERVER, OBSERVERS, preset
 from umbilical.papers.rao2022.ledger import WORDS, Edge, say, short
 from umbilical.papers.rao2022.maps import GAIN_CASES, GAINS, gain_setting
-from umbilical.papers.rao2022.progress import Progress, parts
+from umbilical.papers.rao2022.progress import Progress
+from umbilical.papers.rao2022.proofs import edge_between
 
 if TYPE_CHECKING:
     import xarray
@@ -55,39 +57,34 @@ def edges(gain: xarray.Dataset, progress: Progress | None = None) -> dict[Place,
     Bisection between the last gain of the scan that stays and the first that does not; nan where all stay.
     """
     places: list[Place] = [*product(GAIN_CASES, ARMS, OBSERVERS)]
-    brackets = {place: _bracket(gain, place) for place in places}
-    for share in parts(progress, [1.0] * HALVINGS):
-        middles = {place: float(np.sqrt(low * high)) for place, (low, high) in brackets.items() if np.isfinite(high)}
-        for (place, middle), lost in zip(middles.items(), lost_at(middles.items()), strict=True):
-            brackets[place] = (brackets[place][0], middle) if lost else (middle, brackets[place][1])
-        share(1.0)
-    return {
-        place: Edge(high, bool(np.isfinite(high)) and same_on_grids(high, place))
-        for place, (_, high) in brackets.items()
-    }
-
-
-def _bracket(gain: xarray.Dataset, place: Place) -> tuple[float, float]:
-    """The last gain that stays before the first that runs away, and that one."""
-    peaks = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values
-    lost = np.flatnonzero(np.isnan(peaks))
-    return (GAINS[max(lost[0] - 1, 0)], GAINS[lost[0]]) if lost.size else (GAINS[-1], float("nan"))
-
-
-def lost_at(points: Iterable[tuple[Place, float]], elements: int = GRIDS[0]) -> list[bool]:
-    """Whether the loop runs away at each place and gain."""
-    scenarios = [
-        load(preset(case, arm), {"grid.elements": elements, OBSERVER: on == "on", **gain_setting(case, arm, gain)})
-        for (case, arm, on), gain in points
-    ]
+    found = {}
     with ThreadPoolExecutor() as pool:
-        return [run.status is not Status.COMPLETED for run in pool.map(simulate, scenarios)]
+        for place, one in zip(places, pool.map(partial(_edge, gain), places), strict=True):
+            found[place] = one
+            if progress:
+                progress(len(found) / len(places))
+    return found
+
+
+def _edge(gain: xarray.Dataset, place: Place) -> Edge:
+    peaks = gain["peak"].sel(dict(zip(("case", "arm", "observer"), place, strict=True))).values
+    first = int(np.flatnonzero(np.isnan(peaks)).min(initial=len(GAINS) - 1))
+    found = edge_between(lambda tried: not runs_away(place, tried), GAINS[max(first - 1, 0)], GAINS[first], HALVINGS)
+    return Edge(found, bool(np.isfinite(found)) and same_on_grids(found, place))
+
+
+def runs_away(place: Place, gain: float, elements: int = GRIDS[0]) -> bool:
+    """Whether the loop runs away at a gain."""
+    case, arm, observer = place
+    grid = {"grid.elements": elements, OBSERVER: observer == "on"}
+    scenario = load(preset(case, arm), {**grid, **gain_setting(case, arm, gain)})
+    return simulate(scenario).status is not Status.COMPLETED
 
 
 def same_on_grids(edge: float, place: Place) -> bool:
     """Whether the loop stays just below an edge and runs away just above it on every grid."""
-    points = [(place, edge / NEAR), (place, edge * NEAR)]
-    return all(lost_at(points, elements) == [False, True] for elements in GRIDS)
+    around = [(elements, gain) for elements in GRIDS for gain in (edge / NEAR, edge * NEAR)]
+    return [runs_away(place, gain, elements) for elements, gain in around] == [False, True] * len(GRIDS)
 
 
 def runaways(found: Mapping[Place, Edge], arm: str) -> dict[str, Any]:

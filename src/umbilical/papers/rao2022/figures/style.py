@@ -113,9 +113,8 @@ def _draw_over_time(
 def _line(ax: Axes, array: xarray.DataArray, look: Look, top: float | None) -> None:
     """One array over time; a cross where it ends early, because its run diverged."""
     there = array.dropna("time")
-    (drawn,) = ax.plot(there["time"].values, there.values, color=look.colour, linewidth=look.width, label=look.text)
-    if look.dashes:
-        drawn.set_dashes(look.dashes)
+    style = {"color": look.colour, "linewidth": look.width, "linestyle": (0, look.dashes) if look.dashes else "-"}
+    ax.plot(there["time"].values, there.values, label=look.text, **style)
     if there.sizes["time"] < array.sizes["time"]:
         end = min(float(there[-1]), float("inf") if top is None else top)
         ax.plot(there["time"][-1], end, "x", color=look.colour, ms=4, clip_on=False)
