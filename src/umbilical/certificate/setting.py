@@ -142,7 +142,7 @@ def _not_covered(scenario: Scenario) -> Iterator[Problem]:
 
 
 def _problem(key: str, value: str, bound: str, reason: str) -> Problem:
-    fix = "the boundary law, as in `umbilical presets --copy paper`: `certify` names a slope_gain that is proved"
+    fix = "the boundary law, as in `umbilical presets --copy paper`: `certify` names a slope_gain if one is proved"
     return Problem(key, value, bound, reason, fix)
 
 
