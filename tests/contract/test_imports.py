@@ -1,4 +1,5 @@
-"""Modules of our own are imported inside functions by the command line; elsewhere only where it is listed here."""
+"""Modules of our own are imported inside functions by the command line alone, files import one another in no circle,
+and a public name stands in one folder."""
 
 from __future__ import annotations
 
@@ -12,11 +13,6 @@ FILES = {
     ".".join(path.relative_to(SOURCE).with_suffix("").parts).removesuffix(".__init__"): path
     for path in (SOURCE / "umbilical").rglob("*.py")
 }
-LATER: dict[str, set[str]] = {}
-"""What is imported inside functions outside ``cli/``: kernels and pictures that many callers never need, and what would
-be a circle at import."""
-CIRCLES: set[frozenset[str]] = set()
-"""Files that import one another, imports inside functions counted."""
 
 
 def imports(text: str) -> set[tuple[str, bool]]:
@@ -66,18 +62,36 @@ def circles(graph: dict[str, set[str]]) -> set[frozenset[str]]:
     return {frozenset(short(other) for other in far[name] if name in far[other]) for name in graph if name in far[name]}
 
 
-def test_imports_inside_functions_are_the_command_lines_but_for_those_listed() -> None:
+def test_imports_inside_functions_are_the_command_lines() -> None:
     found: dict[str, set[str]] = {}
     for name, imported in all_imports().items():
         later = {short(other) for other, inside in imported if inside}
         if later and not name.startswith("umbilical.cli"):
             found[short(name)] = later
-    assert found == LATER
+    assert found == {}
 
 
-def test_no_circle_of_files_but_for_those_listed() -> None:
+def test_no_circle_of_files() -> None:
     graph = {name: {other for other, _ in imported} for name, imported in all_imports().items()}
-    assert circles(graph) == CIRCLES
+    assert circles(graph) == set()
+
+
+def shared_names(files: dict[str, str]) -> dict[str, set[str]]:
+    """Names of public functions and classes that files of several folders define, and those folders."""
+    folders: dict[str, set[str]] = {}
+    for folder, text in files.items():
+        for part in ast.parse(text).body:
+            if isinstance(part, ast.FunctionDef | ast.ClassDef) and not part.name.startswith("_"):
+                folders.setdefault(part.name, set()).add(folder.rpartition("/")[0])
+    return {name: found for name, found in folders.items() if len(found) > 1}
+
+
+def test_no_two_folders_give_a_public_name() -> None:
+    files = {path.relative_to(SOURCE).as_posix(): path.read_text(encoding="utf-8") for path in FILES.values()}
+    assert shared_names(files) == {}
+    assert shared_names({"a/x.py": "def f(): ...\ndef _g(): ...", "b/y.py": "class f: ...\ndef _g(): ..."}) == {
+        "f": {"a", "b"}
+    }
 
 
 def test_both_are_noticed() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from umbilical import Run, Status
 from umbilical.papers.rao2022.experiments import FAR, GRIDS, OBSERVERS
-from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, measured, short
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, metric_values, short
 from umbilical.papers.rao2022.maps import BOXED, EXACT, RIM
 from umbilical.papers.rao2022.regions import better, diverged, preset_row, runaways, without_repeats
 
@@ -21,7 +21,7 @@ def a1(evidence: Evidence) -> Judged:
     """A setting in which adaptation clearly helps, and where in it it does not."""
     far, known = (evidence.runs[f"blind, stuck, {arm}"] for arm in ("with", "without"))
     far_ratio = far.metrics["tip_peak_after_fault"] / known.metrics["tip_peak_after_fault"]
-    ratios = measured("A1", evidence.runs)["ratio"], far_ratio if far.status is Status.COMPLETED else np.inf
+    ratios = metric_values("A1", evidence.runs)["ratio"], far_ratio if far.status is Status.COMPLETED else np.inf
     helps = [ratio < BOUNDS["helps"] for ratio in ratios]
     values = {"far_end": far.end_time, "far": FAR, "far_when": _when(far), "known_when": _when(known)}
     more = _where_it_helps(evidence) if evidence.maps else {}

@@ -7,16 +7,19 @@ from itertools import product
 import numpy as np
 
 from umbilical import Run
-from umbilical.papers.rao2022.claims_vibration import worst_ratio
+from umbilical.papers.rao2022.claims_vibration import worst_of_places
 from umbilical.papers.rao2022.experiments import ARMS, CASES, FAULTS, OBSERVERS, Runs, cell
-from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, measured, relative_error
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, all_completed, metric_values, relative_error
 from umbilical.papers.rao2022.regions import diverged, reversal, runaways, without_repeats
 
 
 def c6(evidence: Evidence) -> Judged:
     """No fault: known factors are better, and both work."""
     names = {"free": "free", "without": cell("none", "without"), "with_control": cell("none", "with")}
-    peaks, given = {k: evidence.runs[n].metrics["tip_peak"] for k, n in names.items()}, measured("C6", evidence.runs)
+    peaks, given = (
+        {k: evidence.runs[n].metrics["tip_peak"] for k, n in names.items()},
+        metric_values("C6", evidence.runs),
+    )
     left, found = max(peaks["without"], peaks["with_control"]) / peaks["free"], reversal(evidence.gain)
     holds = max(given["peak_ratio"], given["rms_ratio"]) < 1.0 and left < BOUNDS["works"]
     return Judged({"worst_left": left, **peaks, **found}, holds and not found["when"], holds)
@@ -142,10 +145,10 @@ def c9(evidence: Evidence) -> Judged:
 def c11(evidence: Evidence) -> Judged:
     """With fault control the vibration is suppressed with and without a fault, against no control."""
     runs, free = evidence.runs, evidence.runs["free"]
-    worst = {case: worst_ratio(runs[cell(case, "with")], free, "peak", "rms") for case in CASES}
+    worst = {case: worst_of_places(runs[cell(case, "with")], free, "peak", "rms") for case in CASES}
     kept = [case for case, left in worst.items() if all_completed([runs[cell(case, "with")]]) and left < 1.0]
     blind = {case: runs[f"blind, {case}, with"] for case in ("none", "dead", "stuck")}
-    alone = {case: worst_ratio(run, free, "peak", "rms") for case, run in blind.items() if all_completed([run])}
+    alone = {case: worst_of_places(run, free, "peak", "rms") for case, run in blind.items() if all_completed([run])}
     blind["none, 400 s"] = runs["blind, none, with, long"]
     lost = [case for case, run in blind.items() if not all_completed([run])]
     values = {

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from umbilical import Run
 from umbilical.papers.rao2022.experiments import cell
-from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, measured, relative_error, window_peak
+from umbilical.papers.rao2022.ledger import BOUNDS, Evidence, Judged, metric_values, relative_error, window_peak
 
 PROPOSED = cell("none", "without")
 AT = ("quarter", "mid", "three_quarter", "tip")
@@ -13,7 +13,7 @@ AT = ("quarter", "mid", "three_quarter", "tip")
 
 def c1(evidence: Evidence) -> Judged:
     """Growth without control, with position and with time."""
-    free, long, given = evidence.runs["free"], evidence.runs["free, long"], measured("C1", evidence.runs)
+    free, long, given = evidence.runs["free"], evidence.runs["free, long"], metric_values("C1", evidence.runs)
     peaks = [given[f"{name}_peak"] for name in AT]
     end, longest = free.scenario.duration, long.scenario.duration
     early, late = window_peak(free, 0.0, end / 2), window_peak(free, end / 2, end)
@@ -34,7 +34,7 @@ def c1(evidence: Evidence) -> Judged:
     return Judged(values, with_place and with_time, with_place or with_time)
 
 
-def worst_ratio(run: Run, to: Run, *kinds: str) -> float:
+def worst_of_places(run: Run, to: Run, *kinds: str) -> float:
     """Largest ratio of peaks, or of metrics of several kinds, to those of another run over the four places."""
     names = [f"{at}_{kind}" for at in AT for kind in kinds or ("peak",)]
     return max(run.metrics[name] / to.metrics[name] for name in names)
@@ -44,12 +44,12 @@ def c2(evidence: Evidence) -> Judged:
     """Both controllers suppress the vibration everywhere."""
     runs, middle = evidence.runs, evidence.runs["ringdown"]["displacement"].sel(sigma=0.5, method="nearest")
     worst = {
-        "pd_worst": worst_ratio(runs["pd"], runs["free"], "peak", "rms"),
-        "proposed_worst": worst_ratio(runs[PROPOSED], runs["free"], "peak", "rms"),
+        "pd_worst": worst_of_places(runs["pd"], runs["free"], "peak", "rms"),
+        "proposed_worst": worst_of_places(runs[PROPOSED], runs["free"], "peak", "rms"),
     }
     others = {
-        "pd_worst_hauling": worst_ratio(runs["pd, hauling in"], runs["free, hauling in"]),
-        "proposed_worst_hauling": worst_ratio(runs["proposed, hauling in"], runs["free, hauling in"]),
+        "pd_worst_hauling": worst_of_places(runs["pd, hauling in"], runs["free, hauling in"]),
+        "proposed_worst_hauling": worst_of_places(runs["proposed, hauling in"], runs["free, hauling in"]),
         "ringdown_left": float(abs(middle.sel(time=slice(40.0, None))).max()),
     }
     return Judged(worst | others, max(worst.values()) < 1.0, min(worst.values()) < 1.0)
@@ -57,7 +57,7 @@ def c2(evidence: Evidence) -> Judged:
 
 def c3(evidence: Evidence) -> Judged:
     """At the boundary the proposed law is better than PD."""
-    given, blind, pd = measured("C3", evidence.runs), evidence.runs["blind, none, without"], evidence.runs["pd"]
+    given, blind, pd = metric_values("C3", evidence.runs), evidence.runs["blind, none, without"], evidence.runs["pd"]
     half, end = pd.scenario.duration / 2, pd.scenario.duration
     values = {
         f"{name}_ratio_blind": window_peak(blind, *window) / window_peak(pd, *window)
@@ -69,7 +69,7 @@ def c3(evidence: Evidence) -> Judged:
 
 def c4(evidence: Evidence) -> Judged:
     """At the midpoint the proposed law is significantly better."""
-    given, enough = measured("C4", evidence.runs), BOUNDS["significant"]
+    given, enough = metric_values("C4", evidence.runs), BOUNDS["significant"]
     worse = max(given["peak_ratio"], given["rms_ratio"])
     return Judged({"blind": given["peak_ratio_blind"] < enough}, worse < enough, worse < 1.0)
 

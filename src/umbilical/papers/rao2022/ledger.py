@@ -118,14 +118,14 @@ class Finding:
 
 def make_finding(name: str, judged: Judged, evidence: Evidence) -> Finding:
     """What became of a claim, in its words."""
-    words, values = WORDS[name], {**BOUNDS, **measured(name, evidence.runs), **judged.values}
+    words, values = WORDS[name], {**BOUNDS, **metric_values(name, evidence.runs), **judged.values}
     for key, ways in words.get("either", {}).items():
         values[key] = say(ways[not values.get(key, evidence.maps)], values)
     told = {key: say(text, values) for key, text in words.items() if isinstance(text, str)}
     return Finding(name, judged.verdict, tuple(_numbers(words["numbers"], values)), **told)
 
 
-def measured(name: str, runs: Runs) -> dict[str, float]:
+def metric_values(name: str, runs: Runs) -> dict[str, float]:
     """Numbers of a claim that are metrics of runs, or ratios of them."""
     words = {number: word for number, word in WORDS[name]["numbers"].items() if "run" in word}
     ones = {number: runs[word["over"]].metrics[word["metric"]] for number, word in words.items() if "over" in word}
