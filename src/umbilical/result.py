@@ -37,8 +37,13 @@ class ResultFaces:
 
     def plot(self, **options: Any) -> Any:
         """Draw it; options as for the function of ``umbilical.plots`` that draws such results."""
-        return getattr(import_module("umbilical.plots"), self.drawn_by)(self, **options)
+        return call_plot(self.drawn_by, self, **options)
 
     def _repr_html_(self) -> str:
         headline, _, rest = self.summary().partition("\n")
         return f"<details><summary><b>{escape(headline)}</b></summary><pre>{escape(rest)}</pre></details>"
+
+
+def call_plot(name: str, *shown: Any, **options: Any) -> Any:
+    """Call a function of ``umbilical.plots``, which is above all results and loaded when a picture is asked for."""
+    return getattr(import_module("umbilical.plots"), name)(*shown, **options)

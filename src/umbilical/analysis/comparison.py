@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any, ClassVar
 
 from umbilical.errors import expect
 from umbilical.quantities import METRICS
-from umbilical.result import ResultFaces
+from umbilical.result import ResultFaces, call_plot
 from umbilical.run import Run
 
 
@@ -48,7 +47,7 @@ class Comparison(ResultFaces):
 
     def plot(self, **options: Any) -> Any:
         """Draw the displacement of the ROV in all runs; options as for :func:`umbilical.plot_tip`."""
-        return import_module("umbilical.plots").plot_tip(self.runs, names=self.names, **options)
+        return call_plot("plot_tip", self.runs, names=self.names, **options)
 
 
 def compare(*runs: Run, names: Sequence[str] = ()) -> Comparison:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import import_module
 from pkgutil import resolve_name
 from typing import Any, ClassVar
 
 from umbilical.analysis.convergence import Curve
-from umbilical.result import ResultFaces
+from umbilical.result import ResultFaces, call_plot
 from umbilical.verify.cases import Case, Result
 
 _PLACES = {
@@ -44,7 +43,7 @@ class Verification(ResultFaces):
 
     def plot(self, **options: Any) -> Any:
         """Draw the convergence of every family whose order is judged."""
-        return import_module("umbilical.plots").plot_convergence(self.curves, **options)
+        return call_plot("plot_convergence", self.curves, **options)
 
     @property
     def results(self) -> tuple[Result, ...]:
