@@ -164,6 +164,18 @@ def test_the_size_of_complete_runs_is_told_before_the_start(umbilical, study, tm
     assert len(list((tmp_path / "out" / "runs").iterdir())) == 4
 
 
+def test_a_study_is_checked_before_a_cluster_is_asked(umbilical, study, tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text(Path(study).read_text() + '\n[[arms]]\nname = "own"\ncontroller = "nobody:nothing"\n')
+    done = umbilical("sweep", own, "--dask", "not-an-address", "--out", tmp_path / "out")
+    assert done.code == 2
+    assert "--trust" in done.err
+    done = umbilical("sweep", study, "--dask", "not-an-address", "--out", tmp_path / "out")
+    assert done.code == 2
+    assert "there is no Dask scheduler" in done.err
+    assert not (tmp_path / "out").exists()
+
+
 def test_two_engines_at_once_are_refused(umbilical, study, tmp_path):
     assert umbilical("sweep", study, "--dask", "local", "--processes", "--out", tmp_path / "out").code == 2
     assert not (tmp_path / "out").exists()

@@ -82,7 +82,7 @@ def _show_study(
         raise BadParameter(f"{unknown[0]} is not there; {there}", param_hint="--metric")
     if against is not None and against not in result.arms:
         raise BadParameter(f"there are the arms {', '.join(result.arms)}", param_hint="--against")
-    conclude(result, metrics, against, sensitivity, files={"result": file}, as_json=as_json)
+    conclude(result, metrics, against, sensitivity, files={"result": file} if as_json else None, as_json=as_json)
 
 
 def _show_run(file: str, as_json: bool) -> None:

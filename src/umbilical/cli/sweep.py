@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,10 +13,7 @@ from umbilical.cli.options import Anew, Changes, Force, Jobs, Json, Resume, Trus
 from umbilical.cli.output import conclude, print_result, report
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor
-    from contextlib import AbstractContextManager
-
-    from umbilical.studies.study import Study
+    from umbilical.studies.sweep import Opener
 
 
 def sweep_command(
@@ -52,26 +50,26 @@ def sweep_command(
     chosen = load_changed_study(study, changes)
     folder = out or Path(chosen.name)
     announce_compilation(chosen.scenario)
+    engine, kept = _engine(jobs, processes, dask), {"trust": trust, "resume": resume, "force": force}
     try:
-        with _engine(chosen, jobs, processes, dask) as engine, bar(f"running {chosen.name}") as advance:
-            found = sweep(
-                chosen, folder, engine=engine, trust=trust, resume=resume, force=force, progress=advance, report=report
-            )
+        with bar(f"running {chosen.name}") as advance:
+            found = sweep(chosen, folder, engine=engine, jobs=jobs, progress=advance, report=report, **kept)
     except KeyboardInterrupt:
         report(f"interrupted; finished members are kept, `--out {folder} --resume` goes on")
         raise
     return conclude(found, files={"result": str(folder / "study.nc")}, as_json=as_json)
 
 
-def _engine(study: Study, jobs: int | None, processes: bool, dask: str | None) -> AbstractContextManager[Executor]:
+def _engine(jobs: int | None, processes: bool, dask: str | None) -> Opener | None:
+    """Who works, opened once the study is checked; None leaves it to the study."""
     from umbilical.studies import engines
-    from umbilical.studies.sweep import open_engine
 
+    count = jobs or engines.default_jobs()
     if dask:
         from umbilical.studies.cluster import dask as cluster
 
-        return cluster(dask, jobs or engines.default_jobs())
-    return engines.processes(jobs or engines.default_jobs()) if processes else open_engine(study, jobs)
+        return partial(cluster, dask, count)
+    return partial(engines.processes, count) if processes else None
 
 
 def member_command(

@@ -25,13 +25,14 @@ from umbilical.studies.study import Study
 
 Progress = Callable[[float], None]
 Report = Callable[[str], None]
+Opener = Callable[[], AbstractContextManager[Executor]]
 
 
 def sweep(
     study: Study,
     folder: str | os.PathLike[str] | None = None,
     *,
-    engine: Executor | None = None,
+    engine: Executor | Opener | None = None,
     jobs: int | None = None,
     trust: bool = False,
     resume: bool = False,
@@ -46,8 +47,8 @@ def sweep(
         folder: where the result (``study.nc``), the journal and complete runs go; None keeps the result in memory.
         engine: who works, an executor of :mod:`concurrent.futures` (threads and processes of
             :mod:`umbilical.studies.engines`, ``dask`` of :mod:`umbilical.studies.cluster`, or your own), which stays
-            open; by default threads, or processes where an arm has a controller in Python. The result does not depend
-            on it, bit for bit.
+            open; or a function that opens one, called once all is checked, and closed at the end; by default threads,
+            or processes where an arm has a controller in Python. The result does not depend on it, bit for bit.
         jobs: how many work at once, for the default engine; all cores if left out.
         trust: import the Python controllers that the study's arms name. That runs their code.
         resume: go on with what is in the folder.
@@ -85,9 +86,11 @@ def in_memory(draws: Draws, engine: Executor, progress: Progress = lambda share:
     return assemble_study(draws.study, _rows(engine, draws, set(), progress))
 
 
-def open_engine(study: Study, workers: Executor | int | None) -> AbstractContextManager[Executor]:
-    """An executor that is given; else so many threads, or processes where an arm's controller is written in Python and
-    holds the GIL."""
+def open_engine(study: Study, workers: Executor | Opener | int | None) -> AbstractContextManager[Executor]:
+    """An executor that is given or opened; else so many threads, or processes where an arm's controller is written in
+    Python and holds the GIL."""
+    if callable(workers):
+        return workers()
     if isinstance(workers, Executor) or not any(arm.controller for arm in study.arms):
         return opened(workers)
     return processes(workers or default_jobs())
