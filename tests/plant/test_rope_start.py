@@ -63,3 +63,22 @@ def test_a_shape_longer_than_its_cable_is_refused() -> None:
     steep = {"initial": {"shape": "sine", "amplitude": 400.0, "half_waves": 1.0}}
     with pytest.raises(ScenarioError, match="no cable of this length"):
         load("work-class-1000m-current", HELD | steep)
+
+
+TIMES = {"times": [0.0, 2.0, 1.0, 2000.0], "values": [1.0, 2.0]}
+
+
+@pytest.mark.parametrize(
+    ("key", "broken"),
+    [
+        ("environment.water.current", {"depths": [0.0, 1100.0, 300.0], "speeds": [0.6, 0.3]}),
+        ("environment.payload_force", [{"kind": "table"} | TIMES]),
+        ("winch", {"law": "table", "times": TIMES["times"], "lengths": [900.0, 901.0, 902.0, 903.0, 904.0]}),
+        ("initial", {"shape": "table", "positions": [0.0, 1.0, 0.5], "displacements": [0.0, 1.0]}),
+    ],
+)
+def test_a_broken_table_is_refused_and_not_computed_with(key: str, broken: Any) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        load("work-class-1000m-current", {"model": "rope", "cable.axial_stiffness": 2.6e7, key: broken})
+    assert all(problem.key.startswith(key) for problem in caught.value.problems)
+    assert len(caught.value.problems) == 2

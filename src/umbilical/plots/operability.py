@@ -107,7 +107,8 @@ def plot_lowering(found: Lowering) -> Figure:
     if found.resonant.any():
         band = found.depth[found.resonant]
         right.axhspan(band[0], band[-1], color=COLOURS[4], alpha=0.2, label="resonant with Tp")
-    shown: dict[str, Any] = {"xlim": (1e-9, None), "ylim": (found.depth.max(), found.depth.min())}
+    most = max(3600.0 * float(found.slack_rate.max()), 1e-7)
+    shown: dict[str, Any] = {"xlim": (1e-9, 10.0 * most), "ylim": (found.depth.max(), found.depth.min())}
     dress(right, "", BELOW, xlabel="expected slack events per hour", ylabel="cable paid out [m]", **shown)
     sea = found.spectrum
     waves = f"Hs {sea.significant_height:g} m, Tp {sea.peak_period:g} s, waves towards"

@@ -40,8 +40,9 @@ def plot_weather(found: Weather) -> Figure:
     dress(left, xlabel="peak period Tp [s]", ylabel="significant wave height Hs [m]", ylim=(0.0, None))
     if timed:
         right, hours = axes[1], np.sort(found.windows)[::-1] / 3600.0
-        right.step(hours, np.arange(1, hours.size + 1), color=COLOURS[0], where="post")
+        right.step(hours, np.arange(1, hours.size + 1), color=COLOURS[0], where="post", marker="o", markersize=3)
         right.axvline(found.needed / 3600.0, color=QUIET, linestyle="--", linewidth=1.0, label="needed")
-        dress(right, xlabel="length of a window [h]", ylabel="windows that last as long", xscale="log")
+        shown = {"xscale": "log", "ylim": (0.0, None)}
+        dress(right, xlabel="length of a window [h]", ylabel="windows that last as long", **shown)
     figure.suptitle(f"{found.found.operation.name}: {found.share:.1%} of the sea states are workable", fontsize=12)
     return figure

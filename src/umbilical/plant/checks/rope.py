@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import wraps
 
 import numpy as np
 
 from umbilical.errors import Problem
 from umbilical.plant.checks.stretch import stretches_little
-from umbilical.plant.checks.timeline import MOST_STEPS, check_signal, refuses, shapes, vessel_does_not_jump
+from umbilical.plant.checks.timeline import (
+    MOST_STEPS,
+    check_signal,
+    refuses,
+    shapes,
+    signals_of_the_environment,
+    tables_of_the_winch,
+    vessel_does_not_jump,
+)
+from umbilical.plant.checks.water import table_of_the_current
 from umbilical.plant.initial import slope_of_shape
 from umbilical.plant.rope.assemble import at_rest, rope_of, rope_step, section, stiffness, weights_of
 from umbilical.plant.rope.outside import still_water
@@ -107,5 +117,23 @@ def steps(scenario: Scenario) -> Iterator[Finding]:
                       )  # fmt: skip
 
 
-CHECKS = (signals, rope_stretch, rope_weights, thrusters, rope_start, _lean, steps)
+def _once_tables_are_sound(check: Callable[[Scenario], Iterator[Finding]]) -> Callable[[Scenario], Iterator[Finding]]:
+    """A check that computes with the tables of a scenario, which are refused by checks of their own."""
+
+    @wraps(check)
+    def able(scenario: Scenario) -> Iterator[Finding]:
+        environment, duration = scenario.environment, scenario.duration
+        tables = (
+            table_of_the_current(environment),
+            signals_of_the_environment(environment, duration),
+            shapes(environment, scenario.initial),
+            tables_of_the_winch(scenario.winch, duration),
+        )
+        if not any(map(refuses, tables)):
+            yield from check(scenario)
+
+    return able
+
+
+CHECKS = (signals, *map(_once_tables_are_sound, (rope_stretch, rope_weights, thrusters, rope_start, _lean, steps)))
 """What only a scenario with ``model = "rope"`` is asked."""

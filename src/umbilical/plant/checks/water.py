@@ -87,17 +87,23 @@ def payload_displaces(payload: Payload, environment: Environment) -> Iterator[Fi
             yield Notice(key, words + "is one of the three a slip?")
 
 
+def table_of_the_current(environment: Environment) -> Iterator[Finding]:
+    """Depths of the current increase, and each has its speeds."""
+    if current := environment.water.current if environment.water else None:
+        place = TableOf("environment.water.current", "depths", "speeds", (current.depths[0], current.depths[-1]))
+        broken = tuple(problems_of_a_table(place, current.depths, len(current.speeds)))
+        yield from broken
+        if (across := current.speeds_across) is not None and not broken:
+            yield from problems_of_a_table(place._replace(values="speeds_across"), current.depths, len(across))
+
+
 def current_profile(environment: Environment, winch: Winch, duration: float) -> Iterator[Finding]:
     """The current is known down to the ROV, all through the run."""
     current = environment.water.current if environment.water else None
     if current is None:
         return
     key, across, last = "environment.water.current", current.speeds_across, current.depths[-1]
-    place = TableOf(key, "depths", "speeds", (current.depths[0], last))
-    broken = tuple(problems_of_a_table(place, current.depths, len(current.speeds)))
-    if across is not None and not broken:
-        broken = tuple(problems_of_a_table(place._replace(values="speeds_across"), current.depths, len(across)))
-    yield from broken
+    yield from (broken := tuple(table_of_the_current(environment)))
     fastest = max(map(abs, (*current.speeds, *(across or ()))))
     if fastest > _FASTEST_CURRENT:
         yield Problem(f"{key}.speeds", amount(fastest, "m/s"), f"at most {_FASTEST_CURRENT:g} m/s",
