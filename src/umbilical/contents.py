@@ -1,7 +1,7 @@
 """What must hold of a result file before anything in it is believed: it may have been written or changed by anybody.
 
 Readers list the attributes they rely on with a rule each, and what they need of each array; everything wrong is told at
-once, in one error. Nothing behind :func:`check` needs to doubt the file again.
+once, in one error. Nothing behind :func:`check_contents` needs to doubt the file again.
 """
 
 from __future__ import annotations

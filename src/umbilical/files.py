@@ -79,7 +79,7 @@ def write(path: str | os.PathLike[str], content: bytes, *, force: bool = False) 
         force: replace an existing file. Without it even another process cannot be overwritten unnoticed.
 
     Raises:
-        OutputError: as for :func:`check`, or the disk is full.
+        OutputError: as for :func:`check_free`, or the disk is full.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import inspect
 import pkgutil
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -114,3 +116,16 @@ def test_doctor_lists_what_the_extras_install():
 
 def _package(requirement: str) -> str:
     return requirement.partition(">")[0].partition("[")[0]
+
+
+def test_functions_and_classes_that_docstrings_name_are_where_they_say():
+    """``:func:`name``` is of the same file or imported there; a whole path ends in a file, or a package's front."""
+    source = Path(umbilical.__file__).parent
+    for file in source.rglob("*.py"):
+        for name in re.findall(r":(?:func|class):`~?([\w.]+)`", file.read_text()):
+            *place, last = name.split(".")
+            whole = [source.parent.joinpath(*place[:n]) for n in range(len(place), 0, -1)]
+            homes = [home for path in whole for home in (path.with_suffix(".py"), path / "__init__.py")]
+            home = next((home for home in homes if place[:1] == ["umbilical"] and home.exists()), file)
+            named = rf"(def|class) {last}\b|\b{last}( as \w+)?,? *(\n|$|,|\))|\"{last}\""
+            assert re.search(named, home.read_text()), f"{file.name} names {name}"

@@ -1,1 +1,1 @@
-"""The controllers: from a :class:`Measurement` to a :class:`Command`, never seeing the truth."""
+"""The controllers: from a ``Measurement`` to a ``Command``, never seeing the truth."""

@@ -24,7 +24,7 @@ def plot_shape(run: Run) -> Figure:
     """The cable from the side in both vertical planes, at instants through the run, m; later ones are darker.
 
     Raises:
-        ValueError: the run is of a string, which has one plane: its displacement is in :func:`plot_cable`.
+        ValueError: the run is of a string, which has one plane: its displacement is in :func:`umbilical.plot_cable`.
     """
     _of_a_rope(run)
     figure = new_figure(9.0, 6.0)

@@ -195,7 +195,7 @@ def cable_wave_number(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
 
 
 def upward_asymptote(cable: FixedLengthCable, p: np.ndarray) -> np.ndarray:
-    """``up`` of :func:`waves` far above the first mode, N/m: ``-(T_l gamma + w/4)``, next term of order 1/p."""
+    """``up`` of :func:`waves_at_rov` far above the first mode, N/m: ``-(T_l gamma + w/4)``, next term of order 1/p."""
     taper = cable.weight / (4.0 * cable.tip_tension)
     return -cable.tip_tension * (cable_wave_number(cable, p) + taper)
 

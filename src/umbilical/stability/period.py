@@ -91,7 +91,7 @@ def linear_period(scenario: Scenario, loop: SampledLoop, length: float) -> Linea
 
 
 def _cable_step(plant: LinearPlant) -> Sparse:
-    """State and its last two rates to the same a step later, as :func:`umbilical.engine.plant.step_matrix`."""
+    """State and its last two rates to the same a step later, as :func:`umbilical.engine.linear.step_matrix`."""
     rates: Sparse = plant.a
     now, last, before = plant.step * EXPLICIT[2]
     one: Sparse = sparse.eye_array(plant.a.shape[0])

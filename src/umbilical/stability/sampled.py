@@ -185,7 +185,7 @@ class LoopResponse(NamedTuple):
 
     Attributes:
         p: 1/s.
-        echo: of the vessel, as in :class:`~umbilical.stability.impedance.Waves`.
+        echo: of the vessel, as in :class:`~umbilical.stability.impedance.RovWaves`.
         up1, down1, up2, down2: the coefficients of den and num, N/m.
         force: thrust delivered per thrust commanded, alias 0 and its hold included.
     """

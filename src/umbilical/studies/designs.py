@@ -35,7 +35,7 @@ def points(method: Method, members: int, counts: Sequence[int | None], seed: int
         method: ``random`` (rows do not depend on how many there are), ``latin`` (each variable evenly covered),
             ``sobol`` (scrambled; also evenly covered together), ``grid`` (all combinations), ``saltelli`` and
             ``morris`` (for sensitivity indices; need SALib).
-        members: how many were asked for, see :func:`size`.
+        members: how many were asked for, see :func:`design_size`.
         counts: number of values of each variable, None for a continuum.
         seed: of the random part.
 
