@@ -271,3 +271,10 @@ def test_a_search_that_finds_nothing_says_what_was_broken(umbilical, tmp_path):
     assert done.code == 7
     assert "admitted 2" in done.out
     assert "none is left to choose" in done.out
+
+
+def test_a_scenario_command_says_where_a_study_belongs(umbilical, study):
+    for source in (study, "gain-tuning"):
+        done = umbilical("certify", source)
+        assert done.code == 2
+        assert f"{source}: this is a study" in done.err

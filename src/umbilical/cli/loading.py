@@ -48,7 +48,7 @@ def load_scenario(source: str, changes: Sequence[str] | None, controller: str | 
     Of a result that another controller made it says so, unless a ``controller`` is given.
 
     Raises:
-        FileError: there is no such scenario, or it is an operation.
+        FileError: there is no such scenario, or it is an operation or a study.
         ScenarioError: with every problem.
     """
     from umbilical.library import load
@@ -56,19 +56,22 @@ def load_scenario(source: str, changes: Sequence[str] | None, controller: str | 
     try:
         scenario = _changed(load, source, changes)
     except (FileError, ScenarioError):
-        _refuse_operation(source)
+        _refuse_other_kinds(source)
         raise
     if Path(source).suffix == ".nc" and not controller:
         _report_other_controller(source)
     return scenario
 
 
-def _refuse_operation(source: str) -> None:
-    """Say where an operation belongs, rather than which keys of a scenario it lacks."""
+def _refuse_other_kinds(source: str) -> None:
+    """Say where an operation or a study belongs, rather than which keys of a scenario it lacks."""
     from umbilical.screening.load import is_operation
+    from umbilical.studies.load import is_study
 
     if is_operation(source):
         raise FileError(f"{source}: this is an operation; `umbilical operate`, `lower` and `show` take it")
+    if Path(source).suffix != ".nc" and is_study(source):
+        raise FileError(f"{source}: this is a study; `umbilical sweep`, `member`, `tune` and `show` take it")
 
 
 def _report_other_controller(source: str) -> None:
