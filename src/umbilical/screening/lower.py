@@ -113,6 +113,7 @@ def lower(
     >>> bool(found.risk[1] == 1.0), found.best  # at 3 m/s it sinks faster than it can fall
     (True, 0)
     """
+    depth, speed = np.asarray(depth, dtype=float), np.asarray(speed, dtype=float)
     found = []
     for number, v in enumerate(speed):
         found.append([respond(operation, spectrum, depth=z, heading=heading, payout_speed=v) for z in depth.tolist()])
